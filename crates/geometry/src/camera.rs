@@ -1,0 +1,81 @@
+//! The pinhole camera.
+
+use crate::ray::Ray;
+use glam::DVec3;
+
+/// A pinhole camera. The film is a rectangle at distance 1 in front of the pinhole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    position: DVec3,
+    forward: DVec3,
+    right: DVec3,
+    up: DVec3,
+    film_height: f64,
+    near: f64,
+}
+
+/// Why a camera cannot be built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum CameraError {
+    /// The view direction has no length.
+    #[error("the view direction has length zero")]
+    NoDirection,
+    /// Up and the view direction are parallel.
+    #[error("the up vector is parallel to the view direction")]
+    UpParallel,
+    /// The field of view is not an angle between 0 and 180 degrees.
+    #[error("the vertical field of view must lie between 0 and 180 degrees")]
+    FieldOfView,
+    /// The near distance is negative or not finite.
+    #[error("the near distance must not be negative")]
+    Near,
+}
+
+impl Camera {
+    /// A camera at `position` that looks along `direction`.
+    ///
+    /// `vertical_fov` is in degrees; whatever lies nearer than `near` along the view direction
+    /// is not seen (it still casts shadows).
+    pub fn new(
+        position: DVec3,
+        direction: DVec3,
+        up: DVec3,
+        vertical_fov: f64,
+        near: f64,
+    ) -> Result<Camera, CameraError> {
+        let forward = direction.try_normalize().ok_or(CameraError::NoDirection)?;
+        let right = forward
+            .cross(up.normalize_or_zero())
+            .try_normalize()
+            .ok_or(CameraError::UpParallel)?;
+        if !(vertical_fov > 0.0 && vertical_fov < 180.0) {
+            return Err(CameraError::FieldOfView);
+        }
+        if !(near >= 0.0 && near.is_finite()) {
+            return Err(CameraError::Near);
+        }
+        Ok(Camera {
+            position,
+            forward,
+            right,
+            up: right.cross(forward),
+            film_height: 2.0 * (0.5 * vertical_fov.to_radians()).tan(),
+            near,
+        })
+    }
+
+    /// The ray through a point of the film: `x` from 0 (left) to 1 (right), `y` from 0 (top) to
+    /// 1 (bottom), `aspect` = width / height. The view depth of its points is their parameter;
+    /// what it may hit starts at [`Camera::near`].
+    pub fn ray(&self, x: f64, y: f64, aspect: f64) -> Ray {
+        let across = (x - 0.5) * aspect * self.film_height;
+        let upward = (0.5 - y) * self.film_height;
+        let direction = self.forward + across * self.right + upward * self.up;
+        Ray::new(self.position, direction)
+    }
+
+    /// The view depth at which visible things begin, in scene units.
+    pub fn near(&self) -> f64 {
+        self.near
+    }
+}

@@ -1,0 +1,39 @@
+//! Turns surfaces ([`Surface`]) into a [`Mesh`] of patches, and answers which face a ray
+//! meets ([`Occluders`]).
+//!
+//! Conventions, for the whole project:
+//!
+//! - Right-handed coordinates, lengths in scene units, `f64`.
+//! - The normal of a polygon is `edge_a x edge_b`; seen from its front, corners run
+//!   counter-clockwise. The front emits, receives and reflects; both sides block.
+//! - A *face* is one undivided planar polygon ([`FaceId`]), a *surface* is what a scene
+//!   names ([`SurfaceId`]): one face, or the many faces of a mesh. Patches are cells of faces.
+//! - A face never blocks segments that end on it. That rule goes by face and not by surface,
+//!   so a mesh shadows itself; no distance threshold along the ray is involved.
+//!
+//! This crate knows nothing of files, colours, light or names.
+
+mod bounds;
+mod bvh;
+mod camera;
+mod locate;
+mod mesh;
+mod morton;
+mod occluders;
+mod polygon;
+mod polygon_mesh;
+mod ray;
+mod shape;
+mod subdivide;
+
+pub use bounds::Aabb;
+pub use camera::{Camera, CameraError};
+pub use glam::{DVec2, DVec3};
+pub use locate::Location;
+pub use mesh::{Face, FaceId, Grid, Mesh, Patch, SurfaceId};
+pub use occluders::{Hit, Occluders, Sight};
+pub use polygon::Polygon;
+pub use polygon_mesh::PolygonMesh;
+pub use ray::Ray;
+pub use shape::{Shape, ShapeError};
+pub use subdivide::{Divisions, MAX_PATCHES, MeshError, Surface, count_patches, subdivide};

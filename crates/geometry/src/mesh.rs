@@ -1,0 +1,122 @@
+//! The mesh of patches: what every later stage indexes.
+
+use crate::polygon::Polygon;
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+/// Index of a surface, in scene order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct SurfaceId(pub u32);
+
+/// Index of a face in [`Mesh::faces`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct FaceId(pub u32);
+
+impl SurfaceId {
+    /// The position in a list of all surfaces.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+impl FaceId {
+    /// The position in [`Mesh::faces`].
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// How a face is cut into patches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Grid {
+    /// `a x b` cells of the bilinear map, `a` along the edge from corner 0 to corner 1.
+    Quad {
+        /// Cells along edge a.
+        a: u32,
+        /// Cells along edge b.
+        b: u32,
+    },
+    /// `n^2` congruent triangles.
+    Triangle {
+        /// Cells along each edge.
+        n: u32,
+    },
+}
+
+impl Grid {
+    /// How many patches the face has.
+    pub fn cells(self) -> usize {
+        match self {
+            Grid::Quad { a, b } => a as usize * b as usize,
+            Grid::Triangle { n } => n as usize * n as usize,
+        }
+    }
+}
+
+/// One undivided planar polygon of a surface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Face {
+    /// The polygon.
+    pub polygon: Polygon,
+    /// Unit normal of the front.
+    pub normal: DVec3,
+    /// The surface it belongs to.
+    pub surface: SurfaceId,
+    /// Its index among the surface's faces as they were given.
+    pub input_index: u32,
+    /// How it is cut.
+    pub grid: Grid,
+    /// Its first patch; the others follow in row order.
+    pub first_patch: usize,
+}
+
+impl Face {
+    /// The indices of its patches.
+    pub fn patches(&self) -> std::ops::Range<usize> {
+        self.first_patch..self.first_patch + self.grid.cells()
+    }
+}
+
+/// One cell of a face: the finite element on which radiosity is constant.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Patch {
+    /// Its outline.
+    pub polygon: Polygon,
+    /// Centre of mass.
+    pub centroid: DVec3,
+    /// Unit normal of the front.
+    pub normal: DVec3,
+    /// Area in square scene units.
+    pub area: f64,
+    /// The face it is a cell of.
+    pub face: FaceId,
+    /// The surface it is part of.
+    pub surface: SurfaceId,
+    /// On quads, the cell along edge a and edge b. On triangles, the row parallel to the edge
+    /// from corner 0 to corner 2 and the position in it (even: same orientation as the face).
+    pub cell: [u32; 2],
+}
+
+/// All patches and the faces they subdivide.
+///
+/// Order: surfaces in scene order; the faces of a mesh along a space-filling curve
+/// ([`Face::input_index`] keeps the input order); cells in row order.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mesh {
+    /// The patches; their index is their identity everywhere later.
+    pub patches: Vec<Patch>,
+    /// The faces.
+    pub faces: Vec<Face>,
+}
+
+impl Mesh {
+    /// The face that a patch is a cell of.
+    pub fn face_of(&self, patch: usize) -> &Face {
+        &self.faces[self.patches[patch].face.index()]
+    }
+
+    /// The sum of all patch areas.
+    pub fn total_area(&self) -> f64 {
+        self.patches.iter().map(|patch| patch.area).sum()
+    }
+}

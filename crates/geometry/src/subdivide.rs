@@ -1,0 +1,231 @@
+//! Stage 1: surfaces into patches.
+
+use crate::mesh::{Face, FaceId, Grid, Mesh, Patch, SurfaceId};
+use crate::morton;
+use crate::polygon::Polygon;
+use crate::shape::{Shape, ShapeError};
+
+/// How finely a surface is cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Divisions {
+    /// `a x b` cells on parallelograms and quads; `a^2` on triangles, where `a` equals `b`.
+    Count {
+        /// Cells along edge a.
+        a: u32,
+        /// Cells along edge b.
+        b: u32,
+    },
+    /// As few cells as keep every patch edge at most this long, in scene units.
+    MaxEdge(f64),
+}
+
+impl Divisions {
+    /// The same count along both edges.
+    pub const fn uniform(n: u32) -> Divisions {
+        Divisions::Count { a: n, b: n }
+    }
+}
+
+/// A shape to be cut, and how finely if not as the scene's default says.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// Its geometry.
+    pub shape: Shape,
+    /// Overrides the default of [`subdivide`].
+    pub divisions: Option<Divisions>,
+}
+
+/// Why a scene cannot be cut into patches.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MeshError {
+    /// A shape is unusable.
+    #[error("surface {} {error}", surface.0)]
+    Shape {
+        /// The surface.
+        surface: SurfaceId,
+        /// What is wrong with it.
+        error: ShapeError,
+    },
+    /// A triangle was asked for different counts along its edges.
+    #[error("surface {} is made of triangles, which take one count, not {a} x {b}", surface.0)]
+    TwoCountsOnTriangle {
+        /// The surface.
+        surface: SurfaceId,
+        /// Count along edge a.
+        a: u32,
+        /// Count along edge b.
+        b: u32,
+    },
+    /// A count is zero or an edge length is not a positive number.
+    #[error("surface {} has no usable subdivision: counts and lengths must be positive", surface.0)]
+    NoDivisions {
+        /// The surface.
+        surface: SurfaceId,
+    },
+    /// More patches than indices can name.
+    #[error("the subdivision gives more than {MAX_PATCHES} patches; choose a coarser one")]
+    TooManyPatches,
+    /// There is nothing to cut.
+    #[error("the scene has no surfaces")]
+    Empty,
+}
+
+/// The largest number of patches a mesh may have; their matrix would already fill 2 TB.
+pub const MAX_PATCHES: usize = 1 << 20;
+
+/// Cuts all surfaces into patches.
+///
+/// A count as `default` applies to parallelograms, triangles and quads; the faces of meshes
+/// are patches as they are unless the default is an edge length or the surface has its own
+/// divisions.
+pub fn subdivide(surfaces: &[Surface], default: Divisions) -> Result<Mesh, MeshError> {
+    let mut mesh = Mesh {
+        patches: Vec::new(),
+        faces: uncut_faces(surfaces, default)?,
+    };
+    let mut first_patch = 0;
+    for face in &mut mesh.faces {
+        face.first_patch = first_patch;
+        first_patch += face.grid.cells();
+    }
+    mesh.patches.reserve_exact(first_patch);
+    for (index, face) in mesh.faces.iter().enumerate() {
+        let patch = |(cell, polygon)| new_patch(face, FaceId(index as u32), cell, polygon);
+        mesh.patches.extend(cells(face).into_iter().map(patch));
+    }
+    Ok(mesh)
+}
+
+/// How many patches [`subdivide`] would give, without making them.
+pub fn count_patches(surfaces: &[Surface], default: Divisions) -> Result<usize, MeshError> {
+    let faces = uncut_faces(surfaces, default)?;
+    Ok(faces.iter().map(|face| face.grid.cells()).sum())
+}
+
+fn uncut_faces(surfaces: &[Surface], default: Divisions) -> Result<Vec<Face>, MeshError> {
+    let mut faces = Vec::new();
+    for (index, surface) in surfaces.iter().enumerate() {
+        let id = SurfaceId(index as u32);
+        let divisions = divisions_of(surface, default);
+        for (input_index, polygon) in ordered_polygons(id, &surface.shape)? {
+            faces.push(Face {
+                normal: polygon.normal(),
+                grid: grid(id, &polygon, divisions)?,
+                polygon,
+                surface: id,
+                input_index,
+                first_patch: 0,
+            });
+        }
+    }
+    let too_many = faces
+        .iter()
+        .try_fold(0usize, |sum, face| sum.checked_add(face.grid.cells()))
+        .is_none_or(|patches| patches > MAX_PATCHES);
+    match (faces.is_empty(), too_many) {
+        (true, _) => Err(MeshError::Empty),
+        (_, true) => Err(MeshError::TooManyPatches),
+        _ => Ok(faces),
+    }
+}
+
+fn divisions_of(surface: &Surface, default: Divisions) -> Divisions {
+    match (surface.divisions, &surface.shape, default) {
+        (Some(own), _, _) => own,
+        (None, Shape::Mesh(_), Divisions::Count { .. }) => Divisions::uniform(1),
+        (None, _, default) => default,
+    }
+}
+
+/// The faces of a surface along a space-filling curve, with their input positions.
+fn ordered_polygons(surface: SurfaceId, shape: &Shape) -> Result<Vec<(u32, Polygon)>, MeshError> {
+    let polygons = shape
+        .polygons()
+        .map_err(|error| MeshError::Shape { surface, error })?;
+    let centroids: Vec<_> = polygons.iter().map(|(_, p)| p.centroid()).collect();
+    let order = morton::order(&centroids);
+    Ok(order.into_iter().map(|k| polygons[k]).collect())
+}
+
+fn grid(surface: SurfaceId, polygon: &Polygon, divisions: Divisions) -> Result<Grid, MeshError> {
+    match divisions {
+        Divisions::Count { a: 0, .. } | Divisions::Count { b: 0, .. } => {
+            Err(MeshError::NoDivisions { surface })
+        }
+        Divisions::Count { a, b } if polygon.is_triangle() => {
+            if a != b {
+                return Err(MeshError::TwoCountsOnTriangle { surface, a, b });
+            }
+            Ok(Grid::Triangle { n: a })
+        }
+        Divisions::Count { a, b } => Ok(Grid::Quad { a, b }),
+        Divisions::MaxEdge(length) if length > 0.0 => Ok(grid_by_length(polygon, length)),
+        Divisions::MaxEdge(_) => Err(MeshError::NoDivisions { surface }),
+    }
+}
+
+fn grid_by_length(polygon: &Polygon, max_edge: f64) -> Grid {
+    // An edge of exactly n lengths, up to rounding, takes n cells. Saturating is harmless:
+    // such counts are refused as too many patches.
+    let count = |length: f64| (length / max_edge * (1.0 - 1e-12)).ceil().max(1.0) as u32;
+    if polygon.is_triangle() {
+        return Grid::Triangle {
+            n: count(polygon.longest_edge()),
+        };
+    }
+    let [p, q, r, s] = *polygon.padded_corners();
+    Grid::Quad {
+        a: count((q - p).length().max((r - s).length())),
+        b: count((s - p).length().max((r - q).length())),
+    }
+}
+
+fn new_patch(face: &Face, id: FaceId, cell: [u32; 2], polygon: Polygon) -> Patch {
+    Patch {
+        polygon,
+        centroid: polygon.centroid(),
+        normal: face.normal,
+        area: polygon.area(),
+        face: id,
+        surface: face.surface,
+        cell,
+    }
+}
+
+fn cells(face: &Face) -> Vec<([u32; 2], Polygon)> {
+    match face.grid {
+        Grid::Quad { a, b } => quad_cells(&face.polygon, a, b),
+        Grid::Triangle { n } => triangle_cells(&face.polygon, n),
+    }
+}
+
+fn quad_cells(polygon: &Polygon, a: u32, b: u32) -> Vec<([u32; 2], Polygon)> {
+    let at = |i: u32, j: u32| {
+        polygon.bilinear(f64::from(i) / f64::from(a), f64::from(j) / f64::from(b))
+    };
+    let cell = |i, j| {
+        let corners = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+        ([i, j], Polygon::quad(corners))
+    };
+    (0..a)
+        .flat_map(|i| (0..b).map(move |j| (i, j)))
+        .map(|(i, j)| cell(i, j))
+        .collect()
+}
+
+fn triangle_cells(polygon: &Polygon, n: u32) -> Vec<([u32; 2], Polygon)> {
+    let at =
+        |i: u32, j: u32| polygon.barycentric(f64::from(i) / f64::from(n), f64::from(j) / f64::from(n));
+    let mut cells = Vec::with_capacity(n as usize * n as usize);
+    for i in 0..n {
+        for j in 0..n - i {
+            let upright = [at(i, j), at(i + 1, j), at(i, j + 1)];
+            cells.push(([i, 2 * j], Polygon::triangle(upright)));
+            if i + j + 1 < n {
+                let inverted = [at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+                cells.push(([i, 2 * j + 1], Polygon::triangle(inverted)));
+            }
+        }
+    }
+    cells
+}
