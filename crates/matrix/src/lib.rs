@@ -1,0 +1,178 @@
+//! The packed symmetric matrix of the form factors, owned or memory-mapped.
+//!
+//! Holds one number per unordered pair, so whatever is stored is symmetric by construction.
+//! The diagonal is zero: planar patches do not see themselves.
+//!
+//! This crate knows nothing of what its numbers mean, nor of files.
+
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A symmetric `n x n` matrix of `f32` with a zero diagonal.
+///
+/// Stored is the strict lower triangle by rows: row `i` is the contiguous run of its entries in
+/// columns `0 .. i`. Cloning shares the numbers.
+#[derive(Clone)]
+pub struct SymmetricMatrix {
+    size: usize,
+    values: Arc<dyn AsRef<[f32]> + Send + Sync>,
+}
+
+/// The number of values does not fit the size of the matrix.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LengthMismatch {
+    /// What `n (n - 1) / 2` gives.
+    pub expected: usize,
+    /// What was there.
+    pub found: usize,
+}
+
+impl fmt::Display for LengthMismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let LengthMismatch { expected, found } = self;
+        write!(f, "the matrix needs {expected} values but has {found}")
+    }
+}
+
+impl std::error::Error for LengthMismatch {}
+
+impl fmt::Debug for SymmetricMatrix {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "SymmetricMatrix({0} x {0})", self.size)
+    }
+}
+
+impl SymmetricMatrix {
+    /// Takes the packed values of a matrix of the given size.
+    pub fn new(
+        size: usize,
+        values: impl AsRef<[f32]> + Send + Sync + 'static,
+    ) -> Result<SymmetricMatrix, LengthMismatch> {
+        let (expected, found) = (packed_len(size), values.as_ref().len());
+        if expected != found {
+            return Err(LengthMismatch { expected, found });
+        }
+        Ok(SymmetricMatrix {
+            size,
+            values: Arc::new(values),
+        })
+    }
+
+    /// The number of rows.
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// All packed values, row after row.
+    pub fn values(&self) -> &[f32] {
+        (*self.values).as_ref()
+    }
+
+    /// The rows `i` with their entries in columns `0 .. i`, in order.
+    pub fn rows(&self) -> impl Iterator<Item = (usize, &[f32])> {
+        let values = self.values();
+        (0..self.size).map(move |i| (i, &values[packed_row(i)]))
+    }
+
+    /// One entry, from either triangle.
+    pub fn get(&self, i: usize, j: usize) -> f32 {
+        match i.cmp(&j) {
+            std::cmp::Ordering::Equal => 0.0,
+            std::cmp::Ordering::Greater => self.values()[packed_row(i).start + j],
+            std::cmp::Ordering::Less => self.values()[packed_row(j).start + i],
+        }
+    }
+
+    /// The sum of each full row, summed in `f64` in the order of storage.
+    pub fn row_sums(&self) -> Vec<f64> {
+        let mut sums = vec![0.0; self.size];
+        for (i, row) in self.rows() {
+            let mut sum = 0.0;
+            for (value, below) in row.iter().zip(&mut sums[..i]) {
+                let value = f64::from(*value);
+                sum += value;
+                *below += value;
+            }
+            sums[i] += sum;
+        }
+        sums
+    }
+}
+
+/// How many values a matrix of the given size stores.
+pub fn packed_len(size: usize) -> usize {
+    size * size.saturating_sub(1) / 2
+}
+
+/// Where the entries of row `i` stand among the packed values.
+pub fn packed_row(i: usize) -> Range<usize> {
+    let start = packed_len(i);
+    start..start + i
+}
+
+/// Cuts packed values into blocks of whole rows, each with its first row, for filling in
+/// parallel. The last block may have fewer rows.
+pub fn row_blocks_mut(size: usize, values: &mut [f32], rows: usize) -> Vec<(Range<usize>, &mut [f32])> {
+    let mut blocks = Vec::with_capacity(size.div_ceil(rows.max(1)));
+    let mut rest = values;
+    for first in (0..size).step_by(rows.max(1)) {
+        let end = (first + rows).min(size);
+        let (block, tail) = rest.split_at_mut(packed_len(end) - packed_len(first));
+        blocks.push((first..end, block));
+        rest = tail;
+    }
+    blocks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn counting(size: usize) -> SymmetricMatrix {
+        let values: Vec<f32> = (0..packed_len(size)).map(|k| k as f32).collect();
+        SymmetricMatrix::new(size, values).unwrap()
+    }
+
+    #[test]
+    fn wrong_length_is_refused() {
+        let error = SymmetricMatrix::new(3, vec![0.0; 4]).unwrap_err();
+        assert_eq!(error.to_string(), "the matrix needs 3 values but has 4");
+    }
+
+    #[test]
+    fn rows_are_the_lower_triangle() {
+        let matrix = counting(4);
+        let rows: Vec<Vec<f32>> = matrix.rows().map(|(_, row)| row.to_vec()).collect();
+        assert_eq!(rows, [vec![], vec![0.0], vec![1.0, 2.0], vec![3.0, 4.0, 5.0]]);
+    }
+
+    proptest! {
+        #[test]
+        fn entries_are_symmetric_and_sum_to_row_sums(size in 0usize..40) {
+            let matrix = counting(size);
+            let sums = matrix.row_sums();
+            for i in 0..size {
+                // Integers below 2^24: every sum is exact.
+                let direct: f64 = (0..size).map(|j| f64::from(matrix.get(i, j))).sum();
+                prop_assert_eq!(direct, sums[i]);
+                for j in 0..size {
+                    prop_assert_eq!(matrix.get(i, j), matrix.get(j, i));
+                }
+            }
+        }
+
+        #[test]
+        fn blocks_partition_the_rows(size in 0usize..40, rows in 1usize..50) {
+            let mut values = vec![0.0; packed_len(size)];
+            let mut next = 0;
+            for (range, block) in row_blocks_mut(size, &mut values, rows) {
+                prop_assert_eq!(range.start, next);
+                prop_assert_eq!(block.len(), range.clone().sum::<usize>());
+                next = range.end;
+            }
+            prop_assert_eq!(next, size);
+        }
+    }
+}
