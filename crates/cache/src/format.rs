@@ -1,0 +1,190 @@
+//! The bytes of an artifact's file.
+//!
+//! A file is one bincode value (fixed-size integers, little endian) of
+//! `(Preamble, Header, padding: Vec<u8>, values: Vec<f32>)`. The padding places the values on a
+//! multiple of [`ALIGNMENT`] bytes, so that a memory map of the file can be used in place.
+//! Nothing is decoded before its digest has been checked.
+
+use crate::key::Key;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+#[cfg(target_endian = "big")]
+compile_error!("cache files are little endian and used in place");
+
+/// The first bytes of every file.
+const MAGIC: [u8; 8] = *b"RADIOSTY";
+/// Raise it whenever the layout of files changes.
+const VERSION: u32 = 1;
+/// Bytes; a cache line, and the widest vector register.
+pub(crate) const ALIGNMENT: usize = 64;
+/// Values per block; each block has a digest of its own.
+pub(crate) const BLOCK_VALUES: usize = 1 << 18;
+/// No header may be larger, whatever its length field says.
+const HEADER_LIMIT: usize = 1 << 30;
+
+#[derive(Serialize, Deserialize)]
+struct Preamble {
+    magic: [u8; 8],
+    version: u32,
+    header_len: u64,
+    header_digest: [u8; 32],
+}
+
+const PREAMBLE_LEN: usize = 8 + 4 + 8 + 32;
+/// The length of a `Vec` stands before its contents.
+const LENGTH_LEN: usize = 8;
+
+/// What a file says of itself.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct Header {
+    pub(crate) stage: String,
+    pub(crate) key: [u8; 32],
+    /// The encoded facts.
+    facts: Vec<u8>,
+    value_count: u64,
+    pub(crate) block_digests: Vec<[u8; 32]>,
+}
+
+/// Why an artifact is not taken from the cache.
+#[derive(Debug, thiserror::Error)]
+pub enum Miss {
+    /// There is no file of this scene and stage.
+    #[error("nothing cached yet")]
+    Nothing,
+    /// There are files of this scene and stage, made from other inputs.
+    #[error("inputs changed")]
+    InputsChanged,
+    /// The file cannot be read.
+    #[error("the cached file cannot be read: {0}")]
+    Io(#[from] std::io::Error),
+    /// The file does not begin as a cache file does.
+    #[error("the cached file is not a cache file")]
+    NotACacheFile,
+    /// The file was written by another version of this program.
+    #[error("the cached file has format version {found}, this program writes {VERSION}")]
+    Version {
+        /// The version it names.
+        found: u32,
+    },
+    /// The header's digest is wrong, or the header does not decode.
+    #[error("the cached file's header is damaged")]
+    Header,
+    /// The file is shorter or longer than its header says.
+    #[error("the cached file has {found} bytes instead of {expected}")]
+    Length {
+        /// What its header implies.
+        expected: u64,
+        /// What it has.
+        found: u64,
+    },
+    /// The file's name and its contents disagree on the key.
+    #[error("the cached file belongs to another key")]
+    OtherKey,
+    /// A block's digest is wrong.
+    #[error("the cached file's data is damaged (block {block})")]
+    Block {
+        /// The first damaged block.
+        block: usize,
+    },
+}
+
+fn config() -> impl bincode::config::Config {
+    bincode::config::standard()
+        .with_fixed_int_encoding()
+        .with_limit::<HEADER_LIMIT>()
+}
+
+fn encode(value: &impl Serialize) -> Vec<u8> {
+    let unlimited = bincode::config::standard().with_fixed_int_encoding();
+    bincode::serde::encode_to_vec(value, unlimited).expect("plain data always encodes")
+}
+
+/// Decodes a value that must fill all of `bytes`.
+fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Option<T> {
+    let (value, consumed) = bincode::serde::decode_from_slice(bytes, config()).ok()?;
+    (consumed == bytes.len()).then_some(value)
+}
+
+/// Everything that stands before the values, their length included.
+pub(crate) fn head(stage: &str, key: Key, facts: &impl Serialize, values: &[f32]) -> Vec<u8> {
+    let header = encode(&Header {
+        stage: stage.to_owned(),
+        key: key.0,
+        facts: encode(facts),
+        value_count: values.len() as u64,
+        block_digests: block_digests(values),
+    });
+    let preamble = Preamble {
+        magic: MAGIC,
+        version: VERSION,
+        header_len: header.len() as u64,
+        header_digest: *blake3::hash(&header).as_bytes(),
+    };
+    let mut head = encode(&preamble);
+    head.extend(&header);
+    head.extend(after_header(header.len(), values.len() as u64));
+    head
+}
+
+/// The padding, and the length of the array that follows it.
+fn after_header(header_len: usize, value_count: u64) -> Vec<u8> {
+    let padding = vec![0u8; padding_len(header_len)];
+    encode(&(padding, value_count))
+}
+
+/// Checks everything that stands before the values; gives the header and where the values are.
+pub(crate) fn parse(file: &[u8]) -> Result<(Header, std::ops::Range<usize>), Miss> {
+    let preamble: Preamble = file
+        .get(..PREAMBLE_LEN)
+        .and_then(decode)
+        .ok_or(Miss::NotACacheFile)?;
+    if preamble.magic != MAGIC {
+        return Err(Miss::NotACacheFile);
+    }
+    if preamble.version != VERSION {
+        return Err(Miss::Version {
+            found: preamble.version,
+        });
+    }
+    let header_len = usize::try_from(preamble.header_len)
+        .ok()
+        .filter(|&len| len <= HEADER_LIMIT)
+        .ok_or(Miss::Header)?;
+    let header = file
+        .get(PREAMBLE_LEN..PREAMBLE_LEN + header_len)
+        .filter(|bytes| blake3::hash(bytes).as_bytes() == &preamble.header_digest)
+        .and_then(decode::<Header>)
+        .ok_or(Miss::Header)?;
+    let end_of_header = PREAMBLE_LEN + header_len;
+    let after_header = after_header(header_len, header.value_count);
+    let start = end_of_header + after_header.len();
+    let expected = (start as u64).saturating_add(header.value_count.saturating_mul(4));
+    let found = file.len() as u64;
+    if expected != found {
+        return Err(Miss::Length { expected, found });
+    }
+    if file[end_of_header..start] != after_header {
+        return Err(Miss::Header);
+    }
+    Ok((header, start..file.len()))
+}
+
+impl Header {
+    /// The typed facts.
+    pub(crate) fn facts<F: DeserializeOwned>(&self) -> Result<F, Miss> {
+        decode(&self.facts).ok_or(Miss::Header)
+    }
+}
+
+/// The digest of each block of values.
+pub(crate) fn block_digests(values: &[f32]) -> Vec<[u8; 32]> {
+    use rayon::prelude::*;
+    let digest = |block: &[f32]| *blake3::hash(bytemuck::cast_slice(block)).as_bytes();
+    values.par_chunks(BLOCK_VALUES).map(digest).collect()
+}
+
+fn padding_len(header_len: usize) -> usize {
+    let unpadded = PREAMBLE_LEN + header_len + 2 * LENGTH_LEN;
+    unpadded.next_multiple_of(ALIGNMENT) - unpadded
+}

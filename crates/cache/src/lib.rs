@@ -1,0 +1,23 @@
+//! Turns artifacts into files and back, so that no stage computes the same thing twice.
+//!
+//! An artifact is a small typed part (its *facts*) and one big array of `f32`. Its identity is
+//! a [`Key`], the digest of everything that its stage read. [`Store::read`] gives an
+//! [`Artifact`] or the reason why there is none ([`Miss`]); every doubt about a file is a miss,
+//! never an error and never wrong data. [`Store::write`] replaces files atomically.
+//!
+//! This crate is the only one that names bincode. It knows nothing of physics.
+
+mod format;
+mod key;
+mod lock;
+mod mapping;
+mod store;
+
+#[cfg(test)]
+mod tests;
+
+pub use format::Miss;
+pub use key::Key;
+pub use lock::Lock;
+pub use mapping::MappedValues;
+pub use store::{Artifact, CacheError, Entry, Id, Store};

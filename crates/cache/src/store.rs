@@ -1,0 +1,250 @@
+//! The cache folder.
+
+use crate::format::{self, Miss};
+use crate::key::Key;
+use crate::lock::Lock;
+use crate::mapping::{self, MappedValues};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A folder of cached artifacts.
+#[derive(Clone, Debug)]
+pub struct Store {
+    folder: PathBuf,
+}
+
+/// What names an artifact: the file is `<scene>-<stage>-<key prefix>.bin`.
+#[derive(Clone, Copy, Debug)]
+pub struct Id<'a> {
+    /// The name of the scene, for people.
+    pub scene: &'a str,
+    /// The name of the stage.
+    pub stage: &'a str,
+    /// The identity.
+    pub key: Key,
+}
+
+/// An artifact read from a file.
+#[derive(Debug)]
+pub struct Artifact<F> {
+    /// The small typed part.
+    pub facts: F,
+    values: MappedValues,
+    block_digests: Vec<[u8; 32]>,
+}
+
+/// A file in the cache.
+#[derive(Debug)]
+pub struct Entry {
+    /// Where it is.
+    pub path: PathBuf,
+    /// Its size.
+    pub bytes: u64,
+    /// When it was written, where the file system tells.
+    pub modified: Option<std::time::SystemTime>,
+    /// The stage it names, or why it is not usable.
+    pub stage: Result<String, Miss>,
+}
+
+/// A cache folder or file that cannot be used.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot {action} {}: {error}", path.display())]
+pub struct CacheError {
+    /// What was tried.
+    pub action: &'static str,
+    /// On what.
+    pub path: PathBuf,
+    /// What went wrong.
+    #[source]
+    pub error: std::io::Error,
+}
+
+const EXTENSION: &str = "bin";
+/// Files under these endings belong to a running process, or to one that was interrupted.
+const PARTIAL: &str = "partial";
+const LOCK: &str = "lock";
+
+impl<F> Artifact<F> {
+    /// The big array, its digests checked.
+    pub fn into_values(self) -> Result<(F, Arc<MappedValues>), Miss> {
+        let digests = format::block_digests(self.values.as_ref());
+        let damaged = digests
+            .iter()
+            .zip(&self.block_digests)
+            .position(|(found, expected)| found != expected);
+        match damaged {
+            Some(block) => Err(Miss::Block { block }),
+            None => Ok((self.facts, Arc::new(self.values))),
+        }
+    }
+}
+
+impl Store {
+    /// The cache in a folder, which is made when something is first written.
+    pub fn new(folder: impl Into<PathBuf>) -> Store {
+        Store {
+            folder: folder.into(),
+        }
+    }
+
+    /// The folder.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The path of an artifact's file.
+    pub fn path(&self, id: &Id<'_>) -> PathBuf {
+        let Id { scene, stage, key } = id;
+        let prefix = key.prefix();
+        self.folder.join(format!("{scene}-{stage}-{prefix}.{EXTENSION}"))
+    }
+
+    /// Takes exclusive use of an artifact; calls `on_wait` once if another process has it.
+    pub fn lock(&self, id: &Id<'_>, on_wait: impl FnOnce()) -> Result<Lock, CacheError> {
+        self.make_folder()?;
+        let path = self.path(id).with_extension(LOCK);
+        Lock::take(path.clone(), on_wait).map_err(CacheError::new("lock", &path))
+    }
+
+    /// Reads an artifact's facts, or says why it must be computed. The values are mapped but
+    /// not yet read.
+    pub fn read<F: DeserializeOwned>(&self, id: &Id<'_>) -> Result<Artifact<F>, Miss> {
+        let file = match File::open(self.path(id)) {
+            Ok(file) => file,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+                return Err(self.absence(id));
+            }
+            Err(error) => return Err(error.into()),
+        };
+        let map = mapping::map(&file)?;
+        let (header, values) = format::parse(&map)?;
+        if header.key != id.key.0 || header.stage != id.stage {
+            return Err(Miss::OtherKey);
+        }
+        Ok(Artifact {
+            facts: header.facts()?,
+            values: MappedValues::new(map, values),
+            block_digests: header.block_digests,
+        })
+    }
+
+    /// Writes an artifact. Whoever looks meanwhile, or after an interruption, finds the old
+    /// file or none, never half of the new one. Returns the size in bytes.
+    pub fn write(
+        &self,
+        id: &Id<'_>,
+        facts: &impl Serialize,
+        values: &[f32],
+    ) -> Result<u64, CacheError> {
+        self.make_folder()?;
+        let path = self.path(id);
+        let partial = path.with_extension(PARTIAL);
+        let head = format::head(id.stage, id.key, facts, values);
+        let data: &[u8] = bytemuck::cast_slice(values);
+        write_synced(&partial, &[&head, data]).map_err(CacheError::new("write", &partial))?;
+        fs::rename(&partial, &path).map_err(CacheError::new("rename", &partial))?;
+        Ok((head.len() + data.len()) as u64)
+    }
+
+    /// All cached files, by name.
+    pub fn list(&self) -> Result<Vec<Entry>, CacheError> {
+        let paths = self.files_ending(&[EXTENSION])?;
+        Ok(paths.into_iter().map(Entry::of).collect())
+    }
+
+    /// Removes all cached files, and what interrupted processes left; returns how many files
+    /// and bytes. Files in use by a running process are left alone.
+    pub fn clean(&self) -> Result<(usize, u64), CacheError> {
+        let (mut count, mut bytes) = (0, 0);
+        for path in self.files_ending(&[EXTENSION, PARTIAL, LOCK])? {
+            if is_locked(&path.with_extension(LOCK)) {
+                continue;
+            }
+            bytes += fs::metadata(&path).map_or(0, |m| m.len());
+            match fs::remove_file(&path) {
+                Ok(()) => count += 1,
+                Err(error) if error.kind() == std::io::ErrorKind::NotFound => {}
+                Err(error) => return Err(CacheError::new("remove", &path)(error)),
+            }
+        }
+        Ok((count, bytes))
+    }
+
+    fn make_folder(&self) -> Result<(), CacheError> {
+        fs::create_dir_all(&self.folder).map_err(CacheError::new("create", &self.folder))
+    }
+
+    /// Why there is no file: never made, or made from other inputs.
+    fn absence(&self, id: &Id<'_>) -> Miss {
+        let prefix = format!("{}-{}-", id.scene, id.stage);
+        let is_sibling = |path: &PathBuf| {
+            let name = path.file_name().and_then(|name| name.to_str());
+            name.is_some_and(|name| name.starts_with(&prefix))
+        };
+        match self.files_ending(&[EXTENSION]) {
+            Ok(files) if files.iter().any(is_sibling) => Miss::InputsChanged,
+            _ => Miss::Nothing,
+        }
+    }
+
+    fn files_ending(&self, extensions: &[&str]) -> Result<Vec<PathBuf>, CacheError> {
+        let entries = match fs::read_dir(&self.folder) {
+            Ok(entries) => entries,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
+            Err(error) => return Err(CacheError::new("list", &self.folder)(error)),
+        };
+        let mut files: Vec<PathBuf> = entries
+            .filter_map(|entry| Some(entry.ok()?.path()))
+            .filter(|path| {
+                let extension = path.extension().and_then(|e| e.to_str());
+                extension.is_some_and(|e| extensions.contains(&e))
+            })
+            .collect();
+        files.sort();
+        Ok(files)
+    }
+}
+
+impl Entry {
+    fn of(path: PathBuf) -> Entry {
+        let metadata = fs::metadata(&path).ok();
+        Entry {
+            bytes: metadata.as_ref().map_or(0, fs::Metadata::len),
+            modified: metadata.and_then(|m| m.modified().ok()),
+            stage: stage_of(&path),
+            path,
+        }
+    }
+}
+
+impl CacheError {
+    fn new(action: &'static str, path: &Path) -> impl Fn(std::io::Error) -> CacheError {
+        let path = path.to_owned();
+        move |error| CacheError {
+            action,
+            path: path.clone(),
+            error,
+        }
+    }
+}
+
+fn stage_of(path: &Path) -> Result<String, Miss> {
+    let map = mapping::map(&File::open(path)?)?;
+    format::parse(&map).map(|(header, _)| header.stage)
+}
+
+fn is_locked(lock: &Path) -> bool {
+    File::open(lock).is_ok_and(|file| file.try_lock().is_err())
+}
+
+fn write_synced(path: &Path, parts: &[&[u8]]) -> std::io::Result<()> {
+    let mut file = File::create(path)?;
+    for part in parts {
+        file.write_all(part)?;
+    }
+    file.sync_all()
+}
