@@ -1,0 +1,113 @@
+//! Turns a [`Mesh`](radiosity_geometry::Mesh) into [`FormFactors`]: for every pair of patches,
+//! how much of the light that leaves one arrives at the other.
+//!
+//! `F_ij` is the share of the power leaving patch `i` that arrives directly at the front of
+//! patch `j` (Cohen & Wallace, "Radiosity and Realistic Image Synthesis", 1993, eq. 4.3):
+//!
+//! ```text
+//! F_ij = 1/A_i  int_i int_j  V cos_i cos_j / (pi r^2)  dA_j dA_i
+//! ```
+//!
+//! - Reciprocity `A_i F_ij = A_j F_ji` holds by construction: one number
+//!   `S_ij = A_i F_ij` is stored per pair.
+//! - A patch sees what is in front of it and shows its own front; both sides of a face block.
+//! - Two patches of one planar face have `F = 0`. That goes by face: two faces of one mesh see
+//!   each other like any others.
+//! - No single entry is ever clamped.
+//!
+//! This crate knows nothing of materials, emission, cameras or names, so changing those cannot
+//! invalidate what it computed.
+
+mod estimate;
+mod exchange;
+mod monte_carlo;
+mod points;
+
+use radiosity_matrix::SymmetricMatrix;
+use serde::{Deserialize, Serialize};
+
+pub use estimate::{estimate, rehearse};
+
+/// How the double integral of a pair is sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Estimator {
+    /// The regular rule: `points x points` fixed points on each patch, all pairs of them.
+    ///
+    /// Points are the bilinear images of the centres of a regular grid, weighted by the
+    /// Jacobian, and the centroids of `points^2` sub-triangles on triangles. Patches that touch
+    /// are overestimated, since the integrand is singular there (two squares at a right angle
+    /// by 21.8 % with 3 x 3 points).
+    Regular {
+        /// Points along each edge of a patch.
+        points: u32,
+    },
+    /// The plain Monte Carlo estimator: the mean of `V cos cos / (pi r^2)` over pairs of points
+    /// drawn uniformly, one jittered point from each of `points x points` equal strata at a
+    /// time, in an order shuffled anew for either patch.
+    ///
+    /// Unbiased, but where patches touch the integrand grows as `1 / r^2` and the variance is
+    /// unbounded: single factors, and with them row sums, can be off by any amount, and the
+    /// solution may then not exist.
+    MonteCarlo {
+        /// Strata along each edge of a patch.
+        points: u32,
+        /// Pairs of points drawn for each pair of patches.
+        pairs: u32,
+        /// Seed of all random numbers.
+        seed: u64,
+    },
+}
+
+impl Estimator {
+    /// How many pairs of points are drawn for each pair of patches.
+    pub fn point_pairs(&self) -> u64 {
+        match *self {
+            Estimator::Regular { points } => u64::from(points).pow(4),
+            Estimator::MonteCarlo { pairs, .. } => u64::from(pairs),
+        }
+    }
+}
+
+/// What is known of one row of the form factor matrix.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RowFacts {
+    /// The sum of the row's factors: the share of the power leaving the patch that arrives at
+    /// fronts of other patches. The rest arrives at backs or leaves the scene; more than 1 is
+    /// an error of the estimator.
+    pub fronts: f64,
+}
+
+/// The form factors of all pairs.
+#[derive(Clone, Debug)]
+pub struct FormFactors {
+    /// Patch areas, in square scene units.
+    pub areas: Vec<f64>,
+    /// `S_ij = A_i F_ij`, in units of the total area.
+    pub exchange: SymmetricMatrix,
+    /// Per patch.
+    pub rows: Vec<RowFacts>,
+}
+
+impl FormFactors {
+    /// Completes areas and matrix by the facts that follow from them.
+    pub fn new(areas: Vec<f64>, exchange: SymmetricMatrix) -> FormFactors {
+        let total: f64 = areas.iter().sum();
+        let sums = exchange.row_sums();
+        let rows = std::iter::zip(sums, &areas)
+            .map(|(sum, area)| RowFacts {
+                fronts: sum * total / area,
+            })
+            .collect();
+        FormFactors {
+            areas,
+            exchange,
+            rows,
+        }
+    }
+
+    /// `F_ij`: the share of the power leaving patch `i` that arrives at patch `j`.
+    pub fn factor(&self, i: usize, j: usize) -> f64 {
+        let total: f64 = self.areas.iter().sum();
+        f64::from(self.exchange.get(i, j)) * total / self.areas[i]
+    }
+}
