@@ -1,1 +1,33 @@
+//! Turns a [`Mesh`](radiosity_geometry::Mesh) with one colour per patch and a camera into
+//! pictures: patch-constant and smooth, from one pass of rays.
+//!
+//! A diffuse surface of radiosity `B` shows the radiance `L = B / pi` in every direction, on its
+//! front; its back is black, and so is the background. [`Image`] holds linear radiance,
+//! [`Picture`] what a screen shows.
+//!
+//! This crate knows nothing of matrices, or of how the radiosities came about.
 
+mod bicubic;
+mod encode;
+mod filter;
+mod image;
+mod interpolate;
+mod render;
+mod tone;
+mod vertex;
+
+pub use encode::{PictureFormat, encode};
+pub use image::Image;
+pub use interpolate::{DEFAULT_CREASE_ANGLE, Fields};
+pub use render::{ImageParams, Pictures, render};
+pub use tone::{Picture, ToneMap};
+
+/// Red, green, blue.
+pub type Rgb = [f32; 3];
+
+/// `weight * color`, added to a sum.
+pub(crate) fn add_scaled(sum: &mut Rgb, weight: f32, color: Rgb) {
+    for (sum, channel) in sum.iter_mut().zip(color) {
+        *sum += weight * channel;
+    }
+}

@@ -1,0 +1,91 @@
+//! Pictures as files' bytes.
+
+use crate::tone::Picture;
+
+/// File formats for 8-bit pictures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PictureFormat {
+    /// Portable pixmap, decimal numbers (P3).
+    PlainPpm,
+    /// Portable pixmap, bytes (P6).
+    Ppm,
+    /// Portable network graphics. Its gamma chunk records the picture's gamma.
+    Png {
+        /// The exponent that the picture was made for.
+        gamma: f64,
+    },
+}
+
+/// The bytes of a file that holds the picture.
+pub fn encode(picture: &Picture, format: PictureFormat) -> Vec<u8> {
+    match format {
+        PictureFormat::PlainPpm => plain_ppm(picture),
+        PictureFormat::Ppm => ppm(picture),
+        PictureFormat::Png { gamma } => png(picture, gamma),
+    }
+}
+
+fn header(magic: &str, picture: &Picture) -> String {
+    format!("{magic}\n{} {}\n255\n", picture.width, picture.height)
+}
+
+/// One pixel a line: the format allows no line over 70 characters.
+fn plain_ppm(picture: &Picture) -> Vec<u8> {
+    use std::fmt::Write;
+    let mut text = header("P3", picture);
+    text.reserve(12 * picture.bytes.len() / 3);
+    for pixel in picture.bytes.chunks_exact(3) {
+        writeln!(text, "{} {} {}", pixel[0], pixel[1], pixel[2]).expect("strings take all text");
+    }
+    text.into_bytes()
+}
+
+fn ppm(picture: &Picture) -> Vec<u8> {
+    [header("P6", picture).as_bytes(), &picture.bytes].concat()
+}
+
+fn png(picture: &Picture, gamma: f64) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, picture.width, picture.height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_gamma(png::ScaledFloat::new((1.0 / gamma) as f32));
+    let mut writer = encoder.write_header().expect("memory takes all bytes");
+    writer
+        .write_image_data(&picture.bytes)
+        .expect("the size is that of the picture");
+    writer.finish().expect("memory takes all bytes");
+    bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample() -> Picture {
+        Picture {
+            width: 2,
+            height: 1,
+            bytes: vec![0, 1, 2, 253, 254, 255],
+        }
+    }
+
+    #[test]
+    fn portable_pixmaps_are_as_specified() {
+        let plain = encode(&sample(), PictureFormat::PlainPpm);
+        assert_eq!(plain, b"P3\n2 1\n255\n0 1 2\n253 254 255\n");
+        let binary = encode(&sample(), PictureFormat::Ppm);
+        assert_eq!(binary, b"P6\n2 1\n255\n\x00\x01\x02\xfd\xfe\xff");
+    }
+
+    #[test]
+    fn png_holds_the_picture_and_its_gamma() {
+        let bytes = encode(&sample(), PictureFormat::Png { gamma: 2.0 });
+        let decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+        let mut reader = decoder.read_info().unwrap();
+        assert_eq!(reader.info().gamma().unwrap().into_value(), 0.5);
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut pixels).unwrap();
+        assert_eq!(pixels, sample().bytes);
+    }
+}
