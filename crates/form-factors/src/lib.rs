@@ -28,6 +28,9 @@ use serde::{Deserialize, Serialize};
 
 pub use estimate::{estimate, rehearse};
 
+/// Raise it whenever the same input would give other form factors: it is part of their key.
+pub const VERSION: u32 = 1;
+
 /// How the double integral of a pair is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Estimator {

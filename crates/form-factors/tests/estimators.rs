@@ -1,0 +1,348 @@
+//! Form factors against closed forms, symmetries, and the plainest possible loop.
+
+use proptest::prelude::*;
+use radiosity_form_factors::{Estimator, FormFactors, estimate};
+use radiosity_geometry::{
+    DVec3, Divisions, Mesh, Occluders, PolygonMesh, Ray, Shape, Surface, subdivide,
+};
+use std::f64::consts::PI;
+
+fn mesh_of(shapes: &[Shape], divisions: u32) -> Mesh {
+    let surface = |shape: &Shape| Surface {
+        shape: shape.clone(),
+        divisions: None,
+    };
+    let surfaces: Vec<Surface> = shapes.iter().map(surface).collect();
+    subdivide(&surfaces, Divisions::uniform(divisions)).unwrap()
+}
+
+fn run(mesh: &Mesh, estimator: Estimator) -> FormFactors {
+    estimate(mesh, estimator, &|_| ())
+}
+
+fn regular(mesh: &Mesh, points: u32) -> FormFactors {
+    run(mesh, Estimator::Regular { points })
+}
+
+/// A square in the plane `z`, facing up or down.
+fn square(center: [f64; 2], edge: f64, z: f64, up: bool) -> Shape {
+    let h = 0.5 * edge;
+    let corner = DVec3::new(center[0] - h, center[1] - h, z);
+    let (x, y) = (edge * DVec3::X, edge * DVec3::Y);
+    let (edge_a, edge_b) = if up { (x, y) } else { (y, x) };
+    Shape::Parallelogram { corner, edge_a, edge_b }
+}
+
+/// Two unit squares that share the edge along y, opened by an angle.
+fn hinged(degrees: f64) -> [Shape; 2] {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let leaf = DVec3::new(cos, 0.0, sin);
+    let parallelogram = |edge_a, edge_b| Shape::Parallelogram {
+        corner: DVec3::ZERO,
+        edge_a,
+        edge_b,
+    };
+    [parallelogram(DVec3::X, DVec3::Y), parallelogram(DVec3::Y, leaf)]
+}
+
+/// Closed forms (Howell, "A Catalog of Radiation Heat Transfer Configuration Factors", C-11 and
+/// C-13; the last digits are those of the published tables).
+fn separate_pairs() -> [([Shape; 2], f64, u32); 4] {
+    let facing = |edge: f64, distance: f64| {
+        [square([0.0; 2], 1.0, 0.0, true), square([0.0; 2], edge, distance, false)]
+    };
+    [
+        (facing(1.0, 1.0), 0.199_824_896, 8),
+        (facing(2.0, 1.0), 0.517_653_080, 12),
+        (facing(1.0, 0.1), 0.826_994_522, 40),
+        (facing(1.0, 10.0), 0.003_162_057, 4),
+    ]
+}
+
+/// Away from singularities the regular rule is a midpoint rule: its error falls as 1/n^2, so
+/// extrapolating from n and 2 n leaves an error of order 1/n^4. The constant is about 1 in units
+/// of the gap between the squares; it is allowed to be 20.
+#[test]
+fn the_regular_rule_converges_to_closed_forms() {
+    for (pair, exact, n) in separate_pairs() {
+        let mesh = mesh_of(&pair, 1);
+        let [coarse, fine] = [n, 2 * n].map(|points| regular(&mesh, points).factor(0, 1));
+        let order = ((coarse - exact) / (fine - exact)).log2();
+        assert!((1.8..2.2).contains(&order), "{exact}: order {order}");
+        let extrapolated = (4.0 * fine - coarse) / 3.0;
+        let gap = mesh.patches[1].centroid.z;
+        let bound = 20.0 * (f64::from(n) * gap.min(1.0)).powi(-4) * exact;
+        assert!((extrapolated - exact).abs() < bound, "{exact}: {extrapolated}");
+    }
+}
+
+/// The known error of the course's rule: two squares at a right angle by +21.8 %.
+#[test]
+fn touching_squares_are_overestimated_as_documented() {
+    let factor = regular(&mesh_of(&hinged(90.0), 1), 3).factor(0, 1);
+    assert!((factor / 0.200_043_776 - 1.218).abs() < 0.0005, "{factor}");
+    let sharp = regular(&mesh_of(&hinged(30.0), 1), 3).factor(0, 1);
+    assert!(sharp > 0.619_028, "{sharp}");
+}
+
+/// Mean over independent seeds within four of its own standard errors (one in 16,000).
+#[test]
+fn monte_carlo_is_unbiased() {
+    for (pair, exact, _) in separate_pairs() {
+        let mesh = mesh_of(&pair, 1);
+        for (points, pairs) in [(3, 9), (2, 7), (1, 16)] {
+            let runs = 400;
+            let sample = |seed| run(&mesh, Estimator::MonteCarlo { points, pairs, seed }).factor(0, 1);
+            let samples: Vec<f64> = (0..runs).map(sample).collect();
+            let n = runs as f64;
+            let mean = samples.iter().sum::<f64>() / n;
+            let variance = samples.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n - 1.0);
+            let standard_error = (variance / n).sqrt();
+            assert!((mean - exact).abs() < 4.0 * standard_error, "{exact}: {mean}");
+            assert!(standard_error < 0.2 * exact);
+        }
+    }
+}
+
+/// A rectangle and its two triangles are the same thing. Both rules converge with 1/n^2; the
+/// extrapolated values agree to the 1/n^4 that is left.
+#[test]
+fn a_rectangle_is_its_two_triangles() {
+    let light = square([0.3, 0.2], 0.8, 1.0, false);
+    let [a, b, c, d] = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]
+        .map(|[x, y]| DVec3::new(x, y, 0.0));
+    let whole = mesh_of(&[light.clone(), Shape::Quad([a, b, c, d])], 1);
+    let halves = mesh_of(&[light, Shape::Triangle([a, b, c]), Shape::Triangle([c, d, a])], 1);
+    let extrapolated = |mesh: &Mesh| {
+        let all = |n| {
+            let factors = regular(mesh, n);
+            (1..mesh.patches.len()).map(|j| factors.factor(0, j)).sum::<f64>()
+        };
+        (4.0 * all(24) - all(12)) / 3.0
+    };
+    let (whole, halves) = (extrapolated(&whole), extrapolated(&halves));
+    assert!((whole - halves).abs() < 1e-5 * whole, "{whole} {halves}");
+}
+
+#[test]
+fn what_stands_between_blocks() {
+    let (floor, light) = (square([0.0; 2], 1.0, 0.0, true), square([0.0; 2], 1.0, 2.0, false));
+    let open = regular(&mesh_of(&[floor.clone(), light.clone()], 1), 4).factor(0, 1);
+    let with = |blocker: Shape| {
+        let mesh = mesh_of(&[floor.clone(), light.clone(), blocker], 1);
+        regular(&mesh, 4).factor(0, 1)
+    };
+    for up in [true, false] {
+        assert_eq!(with(square([0.0; 2], 3.0, 1.0, up)), 0.0, "both sides block");
+    }
+    // What one half of the middle plane lets through, the other half blocks.
+    let [left, right] = [-5.01, 4.99].map(|x| with(square([x, 0.0], 10.0, 1.0, true)));
+    assert!(left > 0.0 && right > 0.0);
+    assert!((left + right - open).abs() < 1e-6 * open, "{left} + {right} is not {open}");
+    // The total area is another one, and with it the rounding of storage.
+    let beyond = with(square([0.0; 2], 3.0, 2.5, true));
+    assert!((beyond - open).abs() < 1.3e-7 * open, "behind is not between");
+}
+
+#[test]
+fn only_fronts_exchange() {
+    let squares = |up0, up1| {
+        let pair = [square([0.0; 2], 1.0, 0.0, up0), square([0.0; 2], 1.0, 1.0, up1)];
+        regular(&mesh_of(&pair, 2), 2).exchange.values().iter().copied().fold(0.0, f32::max)
+    };
+    assert!(squares(true, false) > 0.0);
+    assert_eq!([squares(true, true), squares(false, true), squares(false, false)], [0.0; 3]);
+}
+
+#[test]
+fn faces_of_one_mesh_see_each_other_and_a_flat_face_does_not_see_itself() {
+    let positions = [[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 1.0],
+        [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]].map(DVec3::from).to_vec();
+    let faces = vec![vec![0, 1, 4, 3], vec![1, 2, 5, 4]];
+    let surface = Surface {
+        shape: Shape::Mesh(PolygonMesh { positions, faces }),
+        divisions: Some(Divisions::uniform(2)),
+    };
+    let mesh = subdivide(&[surface], Divisions::uniform(1)).unwrap();
+    let factors = regular(&mesh, 2);
+    for i in 0..8 {
+        for j in 0..8 {
+            let same_face = mesh.patches[i].face == mesh.patches[j].face;
+            assert_eq!(factors.factor(i, j) == 0.0, same_face, "{i} {j}");
+        }
+    }
+}
+
+/// A little room with a table in it, at no round angle.
+fn room() -> Vec<Shape> {
+    let mut shapes = vec![
+        square([0.0; 2], 2.0, 0.0, true),
+        square([0.05, 0.1], 2.0, 1.7, false),
+        square([0.3, -0.2], 0.7, 0.6, true),
+        square([0.31, -0.23], 0.72, 0.55, false),
+        Shape::Triangle([
+            DVec3::new(-1.0, -0.9, 0.1),
+            DVec3::new(-1.0, 1.1, 0.2),
+            DVec3::new(-1.1, 0.2, 1.5),
+        ]),
+    ];
+    shapes.push(Shape::Quad([
+        DVec3::new(1.0, -1.0, 0.1),
+        DVec3::new(1.0, -0.9, 1.4),
+        DVec3::new(1.0, 0.8, 1.1),
+        DVec3::new(1.0, 1.0, 0.1),
+    ]));
+    shapes
+}
+
+/// The plainest loop over the definition: all points of all patches, the first hit of every
+/// segment decides. Nothing culled, nothing shared.
+fn oracle(mesh: &Mesh, n: u32, i: usize, j: usize) -> f64 {
+    let occluders = Occluders::new(mesh);
+    let points = |patch: usize| {
+        let polygon = mesh.patches[patch].polygon;
+        let mut points = Vec::new();
+        for a in 0..n {
+            for b in 0..n {
+                let [u, v] = [a, b].map(|k| (f64::from(k) + 0.5) / f64::from(n));
+                if !polygon.is_triangle() {
+                    points.push((polygon.bilinear(u, v), polygon.bilinear_jacobian(u, v)));
+                    continue;
+                }
+                // Centroids of the n^2 sub-triangles, in any order.
+                let third = 1.0 / (3.0 * f64::from(n));
+                let [s, t] = [a, b].map(|k| f64::from(k) / f64::from(n));
+                let (s, t) = if a + b < n {
+                    (s + third, t + third)
+                } else {
+                    let turned = |x: f64| 1.0 - 1.0 / f64::from(n) - x + 2.0 * third;
+                    (turned(s), turned(t))
+                };
+                points.push((polygon.barycentric(s, t), polygon.area()));
+            }
+        }
+        points
+    };
+    let (patch_i, patch_j) = (&mesh.patches[i], &mesh.patches[j]);
+    if patch_i.face == patch_j.face {
+        return 0.0;
+    }
+    let mut sum = 0.0;
+    for (p, weight_p) in points(i) {
+        for (q, weight_q) in points(j) {
+            let d = q - p;
+            let r = d.length();
+            let cos_i = patch_i.normal.dot(d) / r;
+            let cos_j = -patch_j.normal.dot(d) / r;
+            if cos_i > 0.0 && cos_j > 0.0 {
+                let first = occluders.closest_hit(&Ray::new(p, d), 0.0, 1e9, Some(patch_i.face));
+                if first.is_none_or(|hit| hit.face == patch_j.face) {
+                    sum += weight_p * weight_q * cos_i * cos_j / (PI * r * r);
+                }
+            }
+        }
+    }
+    sum / (f64::from(n).powi(4) * patch_i.area)
+}
+
+#[test]
+fn culling_changes_nothing() {
+    let mesh = mesh_of(&room(), 3);
+    let n = 3;
+    let factors = regular(&mesh, n);
+    let mut blocked = 0;
+    for i in 0..mesh.patches.len() {
+        for j in 0..mesh.patches.len() {
+            let (found, expected) = (factors.factor(i, j), oracle(&mesh, n, i, j));
+            // Storage in f32 rounds by 6e-8.
+            assert!((found - expected).abs() <= 1.3e-7 * expected, "{i} {j}: {found} {expected}");
+            blocked += usize::from(expected == 0.0);
+        }
+    }
+    assert!(blocked > 500, "the scene must exercise occlusion");
+}
+
+#[test]
+fn reciprocity_is_exact_in_storage() {
+    let mesh = mesh_of(&room(), 2);
+    let factors = regular(&mesh, 2);
+    for i in 0..mesh.patches.len() {
+        for j in 0..i {
+            let there = mesh.patches[i].area * factors.factor(i, j);
+            let back = mesh.patches[j].area * factors.factor(j, i);
+            assert!((there - back).abs() <= 4.0 * f64::EPSILON * there);
+        }
+    }
+}
+
+#[test]
+fn row_sums_are_sums_of_rows() {
+    let mesh = mesh_of(&room(), 2);
+    let factors = regular(&mesh, 2);
+    for i in 0..mesh.patches.len() {
+        let sum: f64 = (0..mesh.patches.len()).map(|j| factors.factor(i, j)).sum();
+        assert!((factors.rows[i].fronts - sum).abs() < 1e-13);
+    }
+}
+
+#[test]
+fn thread_counts_leave_no_trace() {
+    let mesh = mesh_of(&room(), 5);
+    let monte_carlo = Estimator::MonteCarlo { points: 2, pairs: 6, seed: 3 };
+    for estimator in [Estimator::Regular { points: 2 }, monte_carlo] {
+        let with = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| run(&mesh, estimator).exchange.values().to_vec())
+        };
+        let one = with(1);
+        assert_eq!(one, with(2));
+        assert_eq!(one, with(7));
+    }
+}
+
+#[test]
+fn seeds_matter_to_monte_carlo_alone() {
+    let mesh = mesh_of(&room(), 2);
+    let with = |seed| {
+        let estimator = Estimator::MonteCarlo { points: 2, pairs: 4, seed };
+        run(&mesh, estimator).exchange.values().to_vec()
+    };
+    assert_eq!(with(1), with(1));
+    assert_ne!(with(1), with(2));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// Form factors are pure numbers: turning, moving and scaling a scene changes none of them.
+    /// Coordinates up to 100 keep 14 digits, so 1e-6 leaves room for storage in f32; segments
+    /// that graze an edge could flip, and there are none in this scene.
+    #[test]
+    fn rigid_motions_and_scale_change_nothing(
+        axis in [-1.0f64..1.0, -1.0f64..1.0, 0.1f64..1.0], angle in 0.0f64..6.3,
+        shift in [-50.0f64..50.0, -50.0f64..50.0, -50.0f64..50.0], scale in 0.01f64..20.0
+    ) {
+        let rotation = |v: DVec3| {
+            let k = DVec3::from(axis).normalize();
+            let (sin, cos) = angle.sin_cos();
+            cos * v + sin * k.cross(v) + (1.0 - cos) * k.dot(v) * k
+        };
+        let moved = |v: DVec3| scale * rotation(v) + DVec3::from(shift);
+        let move_shape = |shape: &Shape| match shape {
+            Shape::Parallelogram { corner, edge_a, edge_b } => Shape::Parallelogram {
+                corner: moved(*corner),
+                edge_a: scale * rotation(*edge_a),
+                edge_b: scale * rotation(*edge_b),
+            },
+            Shape::Triangle(corners) => Shape::Triangle(corners.map(moved)),
+            Shape::Quad(corners) => Shape::Quad(corners.map(moved)),
+            Shape::Mesh(_) => unreachable!("the room has none"),
+        };
+        let there: Vec<Shape> = room().iter().map(move_shape).collect();
+        let (here, there) = (mesh_of(&room(), 2), mesh_of(&there, 2));
+        let (a, b) = (regular(&here, 2), regular(&there, 2));
+        for (x, y) in a.exchange.values().iter().zip(b.exchange.values()) {
+            prop_assert!((x - y).abs() <= 1e-6 * x.max(*y) + 1e-12, "{} {}", x, y);
+        }
+    }
+}
