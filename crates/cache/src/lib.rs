@@ -11,6 +11,7 @@ mod format;
 mod key;
 mod lock;
 mod mapping;
+mod replace;
 mod store;
 
 #[cfg(test)]
@@ -20,4 +21,5 @@ pub use format::Miss;
 pub use key::Key;
 pub use lock::Lock;
 pub use mapping::MappedValues;
+pub use replace::replace_file;
 pub use store::{Artifact, CacheError, Entry, Id, Store};

@@ -4,12 +4,11 @@ use crate::format::{self, Miss};
 use crate::key::Key;
 use crate::lock::Lock;
 use crate::mapping::{self, MappedValues};
+use crate::replace::{PARTIAL, replace_file};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::fs::{self, File};
-use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 /// A folder of cached artifacts.
 #[derive(Clone, Debug)]
@@ -64,13 +63,11 @@ pub struct CacheError {
 }
 
 const EXTENSION: &str = "bin";
-/// Files under these endings belong to a running process, or to one that was interrupted.
-const PARTIAL: &str = "partial";
 const LOCK: &str = "lock";
 
 impl<F> Artifact<F> {
     /// The big array, its digests checked.
-    pub fn into_values(self) -> Result<(F, Arc<MappedValues>), Miss> {
+    pub fn into_values(self) -> Result<(F, MappedValues), Miss> {
         let digests = format::block_digests(self.values.as_ref());
         let damaged = digests
             .iter()
@@ -78,7 +75,7 @@ impl<F> Artifact<F> {
             .position(|(found, expected)| found != expected);
         match damaged {
             Some(block) => Err(Miss::Block { block }),
-            None => Ok((self.facts, Arc::new(self.values))),
+            None => Ok((self.facts, self.values)),
         }
     }
 }
@@ -106,7 +103,7 @@ impl Store {
     /// Takes exclusive use of an artifact; calls `on_wait` once if another process has it.
     pub fn lock(&self, id: &Id<'_>, on_wait: impl FnOnce()) -> Result<Lock, CacheError> {
         self.make_folder()?;
-        let path = self.path(id).with_extension(LOCK);
+        let path = lock_of(&self.path(id));
         Lock::take(path.clone(), on_wait).map_err(CacheError::new("lock", &path))
     }
 
@@ -142,11 +139,9 @@ impl Store {
     ) -> Result<u64, CacheError> {
         self.make_folder()?;
         let path = self.path(id);
-        let partial = path.with_extension(PARTIAL);
         let head = format::head(id.stage, id.key, facts, values);
         let data: &[u8] = bytemuck::cast_slice(values);
-        write_synced(&partial, &[&head, data]).map_err(CacheError::new("write", &partial))?;
-        fs::rename(&partial, &path).map_err(CacheError::new("rename", &partial))?;
+        replace_file(&path, &[&head, data]).map_err(CacheError::new("write", &path))?;
         Ok((head.len() + data.len()) as u64)
     }
 
@@ -161,7 +156,7 @@ impl Store {
     pub fn clean(&self) -> Result<(usize, u64), CacheError> {
         let (mut count, mut bytes) = (0, 0);
         for path in self.files_ending(&[EXTENSION, PARTIAL, LOCK])? {
-            if is_locked(&path.with_extension(LOCK)) {
+            if is_locked(&lock_of(&artifact_of(&path))) {
                 continue;
             }
             bytes += fs::metadata(&path).map_or(0, |m| m.len());
@@ -237,14 +232,19 @@ fn stage_of(path: &Path) -> Result<String, Miss> {
     format::parse(&map).map(|(header, _)| header.stage)
 }
 
-fn is_locked(lock: &Path) -> bool {
-    File::open(lock).is_ok_and(|file| file.try_lock().is_err())
+fn lock_of(artifact: &Path) -> PathBuf {
+    artifact.with_extension(format!("{EXTENSION}.{LOCK}"))
 }
 
-fn write_synced(path: &Path, parts: &[&[u8]]) -> std::io::Result<()> {
-    let mut file = File::create(path)?;
-    for part in parts {
-        file.write_all(part)?;
+/// The artifact that a file belongs to: itself, or the one it is the lock or partial file of.
+fn artifact_of(path: &Path) -> PathBuf {
+    let extension = path.extension().and_then(|e| e.to_str());
+    match extension {
+        Some(PARTIAL | LOCK) => path.with_extension(""),
+        _ => path.to_owned(),
     }
-    file.sync_all()
+}
+
+fn is_locked(lock: &Path) -> bool {
+    File::open(lock).is_ok_and(|file| file.try_lock().is_err())
 }

@@ -33,7 +33,7 @@ fn written() -> (TempDir, Store) {
 fn read(store: &Store) -> Result<(Facts, Vec<f32>), String> {
     let artifact = store.read::<Facts>(&id(1)).map_err(|miss| miss.to_string())?;
     let (facts, values) = artifact.into_values().map_err(|miss| miss.to_string())?;
-    Ok((facts, (*values).as_ref().to_vec()))
+    Ok((facts, values.as_ref().to_vec()))
 }
 
 /// The miss after the file's bytes went through `damage`.
@@ -58,7 +58,7 @@ fn an_empty_array_is_an_artifact_too() {
     let store = Store::new(folder.path());
     store.write(&id(1), &3u8, &[]).unwrap();
     let (facts, values) = store.read::<u8>(&id(1)).unwrap().into_values().unwrap();
-    assert_eq!((facts, (*values).as_ref().len()), (3, 0));
+    assert_eq!((facts, values.as_ref().len()), (3, 0));
 }
 
 /// The layout is a promise to files that exist: these bytes must never change within a version.
@@ -156,7 +156,7 @@ fn facts_of_another_type_are_a_miss() {
 #[test]
 fn a_leftover_of_an_interrupted_write_does_no_harm() {
     let (_folder, store) = written();
-    let partial = store.path(&id(1)).with_extension("partial");
+    let partial = store.path(&id(1)).with_extension("bin.partial");
     fs::write(&partial, b"half a file").unwrap();
     assert_eq!(read(&store), Ok(sample()));
     let (facts, values) = sample();
@@ -169,7 +169,7 @@ fn a_mapped_file_survives_its_replacement() {
     let (_folder, store) = written();
     let (_, old) = store.read::<Facts>(&id(1)).unwrap().into_values().unwrap();
     store.write(&id(1), &sample().0, &[9.0; 4]).unwrap();
-    assert_eq!((*old).as_ref(), sample().1);
+    assert_eq!(old.as_ref(), sample().1);
 }
 
 #[test]
