@@ -59,8 +59,7 @@ impl<'a> Interpolant<'a> {
             }
             _ => {
                 let polygon = &self.mesh.patches[at.patch].polygon;
-                self.vertices
-                    .at(polygon, at.patch, at.on_patch, self.constant(at))
+                self.vertices.at(polygon, at.patch, at.on_patch)
             }
         };
         value.map(|channel| channel.max(0.0))

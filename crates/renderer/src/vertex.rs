@@ -1,11 +1,11 @@
 //! Smooth interpolation on triangles and meshes: values at vertices, shared by all patches that
-//! meet there and belong together.
+//! meet there and belong together, and linear (bilinear on quads) between them. Continuous
+//! across all edges between patches that belong together.
 //!
-//! A vertex has the average of its patches' values, weighted by their angles there (Thuermer &
-//! Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998). Inside a patch the
-//! vertices' values are interpolated linearly (bilinearly on quads), and a bubble, zero on the
-//! border, lifts the centre to the patch's own value. So the interpolant is continuous across
-//! all edges between patches that belong together, and passes through every patch's value.
+//! A vertex first has the average of its patches' values, weighted by their angles there
+//! (Thuermer & Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998). That blurs:
+//! the mean of a patch's vertices is no longer the patch's value. What is missing is averaged in
+//! the same way and added back, [`SHARPENING`] times (Van Cittert's iteration, 1931).
 //!
 //! Two patches belong together at a vertex if they have equal emission and reflectance and
 //! their normals differ by less than the crease angle, directly or by way of others there.
@@ -17,9 +17,14 @@ use std::collections::HashMap;
 
 /// Values at the corners of patches.
 pub(crate) struct VertexValues {
-    /// For each patch, its three or four corners' values; the last of a triangle twice.
-    corners: Vec<[Rgb; 4]>,
+    values: Vec<Rgb>,
+    /// For each patch, the vertices at its three or four corners; a triangle leaves the last unused.
+    corners: Vec<[u32; 4]>,
 }
+
+/// Rounds of sharpening. Each one restores more of the contrast that averaging loses, and more
+/// of the noise of single patches.
+const SHARPENING: usize = 2;
 
 /// Positions closer than this, relative to the scene, are one vertex: what the digits of mesh
 /// files and the rounding of subdivision leave.
@@ -35,42 +40,54 @@ struct Corner {
 
 impl VertexValues {
     pub(crate) fn new(mesh: &Mesh, fields: &Fields<'_>, crease_angle: f64) -> VertexValues {
-        let mut corners: Vec<[Rgb; 4]> = fields.radiosity.iter().map(|&b| [b; 4]).collect();
         let smallest_cosine = crease_angle.to_radians().cos();
-        for vertex in weld(mesh) {
-            for group in groups(mesh, fields, smallest_cosine, &vertex) {
-                let value = average(fields, &group);
-                for corner in group {
-                    corners[corner.patch][corner.index] = value;
-                }
+        let vertices: Vec<Vec<Corner>> = weld(mesh)
+            .iter()
+            .flat_map(|vertex| groups(mesh, fields, smallest_cosine, vertex))
+            .collect();
+        let mut corners = vec![[0; 4]; mesh.patches.len()];
+        for (id, vertex) in vertices.iter().enumerate() {
+            for corner in vertex {
+                corners[corner.patch][corner.index] = id as u32;
             }
         }
-        for (values, patch) in corners.iter_mut().zip(&mesh.patches) {
-            if patch.polygon.is_triangle() {
-                values[3] = values[2];
-            }
+        let mut result = VertexValues {
+            values: vertices.iter().map(|v| average(v, fields.radiosity)).collect(),
+            corners,
+        };
+        for _ in 0..SHARPENING {
+            result.sharpen(mesh, fields, &vertices);
         }
-        VertexValues { corners }
+        result
+    }
+
+    fn sharpen(&mut self, mesh: &Mesh, fields: &Fields<'_>, vertices: &[Vec<Corner>]) {
+        let missing = |patch: usize| {
+            let polygon = &mesh.patches[patch].polygon;
+            let center = if polygon.is_triangle() { 1.0 / 3.0 } else { 0.5 };
+            let shown = self.at(polygon, patch, DVec2::splat(center));
+            std::array::from_fn(|c| fields.radiosity[patch][c] - shown[c])
+        };
+        let missing: Vec<Rgb> = (0..mesh.patches.len()).map(missing).collect();
+        for (value, vertex) in self.values.iter_mut().zip(vertices) {
+            add_scaled(value, 1.0, average(vertex, &missing));
+        }
     }
 
     /// The value at a point of a patch, given by the patch's own coordinates.
-    pub(crate) fn at(&self, polygon: &Polygon, patch: usize, at: DVec2, own: Rgb) -> Rgb {
-        let corners = &self.corners[patch];
+    pub(crate) fn at(&self, polygon: &Polygon, patch: usize, at: DVec2) -> Rgb {
         let (s, t) = (at.x as f32, at.y as f32);
-        let (weights, center, bubble) = if polygon.is_triangle() {
-            let r = 1.0 - s - t;
-            ([r, s, t, 0.0], [1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.0], 27.0 * r * s * t)
+        let weights = if polygon.is_triangle() {
+            [1.0 - s - t, s, t, 0.0]
         } else {
             let (p, q) = (1.0 - s, 1.0 - t);
-            ([p * q, s * q, s * t, p * t], [0.25; 4], 16.0 * p * q * s * t)
+            [p * q, s * q, s * t, p * t]
         };
         let mut value = [0.0; 3];
-        let mut at_center = [0.0; 3];
-        for k in 0..4 {
-            add_scaled(&mut value, weights[k], corners[k]);
-            add_scaled(&mut at_center, center[k], corners[k]);
+        for (weight, vertex) in weights.into_iter().zip(self.corners[patch]) {
+            add_scaled(&mut value, weight, self.values[vertex as usize]);
         }
-        std::array::from_fn(|c| value[c] + bubble * (own[c] - at_center[c]))
+        value
     }
 }
 
@@ -159,11 +176,12 @@ fn groups(
     groups
 }
 
-fn average(fields: &Fields<'_>, group: &[Corner]) -> Rgb {
-    let total: f32 = group.iter().map(|corner| corner.angle).sum();
+/// The average over the patches at a vertex, weighted by angle.
+fn average(vertex: &[Corner], of_patches: &[Rgb]) -> Rgb {
+    let total: f32 = vertex.iter().map(|corner| corner.angle).sum();
     let mut sum = [0.0; 3];
-    for corner in group {
-        add_scaled(&mut sum, corner.angle / total, fields.radiosity[corner.patch]);
+    for corner in vertex {
+        add_scaled(&mut sum, corner.angle / total, of_patches[corner.patch]);
     }
     sum
 }
