@@ -1,1 +1,25 @@
+//! Turns scene files (TOML) and mesh files (OBJ) into a checked [`Scene`].
+//!
+//! Every error says what is wrong, shows the line it stands in and says how to mend it
+//! ([`SceneError`]). What [`load`] returns is usable: numbers are finite and in range, names
+//! resolve, shapes have area, the camera can look.
+//!
+//! This crate knows nothing of patches or form factors.
 
+mod camera;
+mod file;
+mod material;
+mod obj;
+mod scene;
+mod settings;
+mod source;
+mod surface;
+mod values;
+
+#[cfg(test)]
+mod tests;
+
+pub use scene::{Scene, Surface, load, parse};
+pub use material::Material;
+pub use settings::{FormFactorSettings, ImageSettings, Mode, SolverSettings};
+pub use source::SceneError;

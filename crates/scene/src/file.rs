@@ -1,0 +1,26 @@
+//! The tables of a scene file, as they are written.
+
+use crate::camera::CameraTable;
+use crate::material::MaterialTable;
+use crate::settings::{DiscretizationTable, FormFactorTable, ImageTable, SolverTable};
+use crate::surface::SurfaceTable;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use toml::Spanned;
+
+/// A whole scene file.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SceneFile {
+    pub(crate) camera: Option<Spanned<CameraTable>>,
+    #[serde(default)]
+    pub(crate) image: ImageTable,
+    #[serde(default)]
+    pub(crate) discretization: DiscretizationTable,
+    #[serde(default)]
+    pub(crate) form_factors: FormFactorTable,
+    #[serde(default)]
+    pub(crate) solver: SolverTable,
+    pub(crate) materials: BTreeMap<String, MaterialTable>,
+    pub(crate) surfaces: Vec<Spanned<SurfaceTable>>,
+}

@@ -1,0 +1,89 @@
+//! A checked scene, and how it is loaded.
+
+use crate::camera::camera;
+use crate::file::SceneFile;
+use crate::material::{Material, materials};
+use crate::settings::{FormFactorSettings, ImageSettings, SolverSettings};
+use crate::source::{Complaint, SceneError, Source};
+use crate::surface::Context;
+use radiosity_geometry::{self as geometry, Camera, Divisions, SurfaceId};
+use std::path::Path;
+
+/// Everything that a scene file says.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The name of its file, without the ending.
+    pub name: String,
+    /// The shapes of the surfaces.
+    pub geometry: Vec<geometry::Surface>,
+    /// What else is known of each surface, in the same order.
+    pub surfaces: Vec<Surface>,
+    /// All materials.
+    pub materials: Vec<Material>,
+    /// The camera, if the scene has one.
+    pub camera: Option<Camera>,
+    /// The picture.
+    pub image: ImageSettings,
+    /// How finely surfaces are cut that do not say otherwise.
+    pub divisions: Divisions,
+    /// The form factor stage.
+    pub form_factors: FormFactorSettings,
+    /// The solver stage.
+    pub solver: SolverSettings,
+}
+
+/// A surface, apart from its shape.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// Its name, unique in the scene.
+    pub name: String,
+    /// Index into the scene's materials, for each face in input order; just one for a surface
+    /// of one face.
+    pub materials: Vec<usize>,
+}
+
+impl Scene {
+    /// The material of a face, by its surface and its input index.
+    pub fn material(&self, surface: SurfaceId, input_face: u32) -> &Material {
+        let materials = &self.surfaces[surface.index()].materials;
+        &self.materials[materials[input_face as usize]]
+    }
+}
+
+/// Reads and checks a scene file, and the mesh files that it names.
+pub fn load(path: &Path) -> Result<Scene, SceneError> {
+    let text = std::fs::read_to_string(path).map_err(|error| {
+        let title = format!("cannot read the scene: {error}");
+        SceneError::of_file(path, &title, "give the path of a scene file (.toml)")
+    })?;
+    parse(path, &text)
+}
+
+/// Checks the text of a scene file; `path` is what errors name and meshes are relative to.
+pub fn parse(path: &Path, text: &str) -> Result<Scene, SceneError> {
+    let source = Source { path, text };
+    let file: SceneFile = toml::from_str(text).map_err(|error| {
+        let complaint = Complaint::new("cannot read this scene", error.message());
+        source.error(error.span().unwrap_or(0..0), &complaint)
+    })?;
+    let camera = file.camera.as_ref().map(|table| camera(&source, table));
+    let materials = materials(&source, file.materials)?;
+    let context = Context {
+        source,
+        folder: path.parent().unwrap_or(Path::new("")),
+        materials: &materials,
+    };
+    let (geometry, surfaces) = context.surfaces(&file.surfaces)?;
+    let name = path.file_stem().unwrap_or_default().to_string_lossy();
+    Ok(Scene {
+        name: name.into_owned(),
+        geometry,
+        surfaces,
+        camera: camera.transpose()?,
+        image: file.image.check(&source)?,
+        divisions: file.discretization.check(&source)?,
+        form_factors: file.form_factors.check(&source)?,
+        solver: file.solver.check(&source)?,
+        materials,
+    })
+}

@@ -1,0 +1,170 @@
+//! `[image]`, `[discretization]`, `[form_factors]`, `[solver]`: defaults that flags override.
+
+use crate::source::{SceneError, Source};
+use crate::values::{Counts, divisions, require};
+use radiosity_geometry::Divisions;
+use serde::Deserialize;
+use toml::Spanned;
+
+/// The picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImageSettings {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Sub-pixels along each edge of a pixel.
+    pub subpixels: u32,
+    /// Samples per sub-pixel.
+    pub samples: u32,
+    /// Radiance is multiplied by this; what then exceeds 1 is clamped.
+    pub exposure: f64,
+    /// Displayed values are the 1/gamma-th power.
+    pub gamma: f64,
+    /// Seed of the positions of samples.
+    pub seed: u64,
+}
+
+/// The form factor stage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FormFactorSettings {
+    /// The estimator.
+    pub mode: Mode,
+    /// Points (or strata) along each edge of a patch.
+    pub points: u32,
+    /// Pairs of points per pair of patches, where the mode has a choice; by default
+    /// `points^2`.
+    pub pairs: Option<u32>,
+    /// Seed of random points.
+    pub seed: u64,
+}
+
+/// The estimators by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mode {
+    /// Fixed points, all pairs.
+    Regular,
+    /// Random points.
+    MonteCarlo,
+}
+
+/// The solver stage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolverSettings {
+    /// Relative residual to reach.
+    pub tolerance: f64,
+    /// Most sweeps to take.
+    pub max_sweeps: u32,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ImageTable {
+    width: Option<Spanned<u32>>,
+    height: Option<Spanned<u32>>,
+    subpixels: Option<Spanned<u32>>,
+    samples: Option<Spanned<u32>>,
+    exposure: Option<Spanned<f64>>,
+    gamma: Option<Spanned<f64>>,
+    seed: Option<u64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DiscretizationTable {
+    divisions: Option<Spanned<Counts>>,
+    max_patch_edge: Option<Spanned<f64>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FormFactorTable {
+    mode: Option<Mode>,
+    points: Option<Spanned<u32>>,
+    pairs: Option<Spanned<u32>>,
+    seed: Option<u64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SolverTable {
+    tolerance: Option<Spanned<f64>>,
+    max_sweeps: Option<Spanned<u32>>,
+}
+
+/// The value of an optional entry within a range, or its default.
+fn value_or<T: Copy>(
+    source: &Source<'_>,
+    entry: Option<&Spanned<T>>,
+    default: T,
+    holds: impl Fn(T) -> bool,
+    (what, range): (&str, &str),
+) -> Result<T, SceneError> {
+    let Some(entry) = entry else {
+        return Ok(default);
+    };
+    require(source, entry, |&value| holds(value), what, range)?;
+    Ok(*entry.get_ref())
+}
+
+impl ImageTable {
+    pub(crate) fn check(&self, source: &Source<'_>) -> Result<ImageSettings, SceneError> {
+        let size = |entry: &Option<_>, default, what| {
+            let limits = (what, "between 1 and 65536");
+            value_or(source, entry.as_ref(), default, |n| (1..=1 << 16).contains(&n), limits)
+        };
+        let count = |entry: &Option<_>, default, what| {
+            let limits = (what, "between 1 and 64");
+            value_or(source, entry.as_ref(), default, |n| (1..=64).contains(&n), limits)
+        };
+        let positive = |entry: &Option<_>, default, what| {
+            let limits = (what, "a positive number");
+            value_or(source, entry.as_ref(), default, |x: f64| x > 0.0 && x.is_finite(), limits)
+        };
+        Ok(ImageSettings {
+            width: size(&self.width, 640, "`width`")?,
+            height: size(&self.height, 480, "`height`")?,
+            subpixels: count(&self.subpixels, 2, "`subpixels`")?,
+            samples: count(&self.samples, 4, "`samples`")?,
+            exposure: positive(&self.exposure, 1.0, "`exposure`")?,
+            gamma: positive(&self.gamma, 2.2, "`gamma`")?,
+            seed: self.seed.unwrap_or(0),
+        })
+    }
+}
+
+impl DiscretizationTable {
+    pub(crate) fn check(&self, source: &Source<'_>) -> Result<Divisions, SceneError> {
+        let given = divisions(source, self.divisions.as_ref(), self.max_patch_edge.as_ref())?;
+        Ok(given.unwrap_or(Divisions::uniform(12)))
+    }
+}
+
+impl FormFactorTable {
+    pub(crate) fn check(&self, source: &Source<'_>) -> Result<FormFactorSettings, SceneError> {
+        let points = ("`points`", "between 1 and 64");
+        let pairs = self.pairs.as_ref();
+        if let Some(pairs) = pairs {
+            require(source, pairs, |&n| n >= 1, "`pairs`", "at least 1")?;
+        }
+        Ok(FormFactorSettings {
+            mode: self.mode.unwrap_or(Mode::Regular),
+            points: value_or(source, self.points.as_ref(), 3, |n| (1..=64).contains(&n), points)?,
+            pairs: pairs.map(|pairs| *pairs.get_ref()),
+            seed: self.seed.unwrap_or(0),
+        })
+    }
+}
+
+impl SolverTable {
+    pub(crate) fn check(&self, source: &Source<'_>) -> Result<SolverSettings, SceneError> {
+        let tolerance = ("`tolerance`", "between 0 and 1, neither included");
+        let sweeps = ("`max_sweeps`", "at least 1");
+        let inside = |x: f64| x > 0.0 && x < 1.0;
+        Ok(SolverSettings {
+            tolerance: value_or(source, self.tolerance.as_ref(), 1e-6, inside, tolerance)?,
+            max_sweeps: value_or(source, self.max_sweeps.as_ref(), 200, |n| n >= 1, sweeps)?,
+        })
+    }
+}

@@ -1,0 +1,110 @@
+//! The text of a file, and errors that point into it.
+
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use std::ops::Range;
+use std::path::Path;
+
+/// What is wrong with a scene or mesh file, where, and how to mend it, as text for people.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{report}")]
+pub struct SceneError {
+    report: String,
+}
+
+/// A file's text with the path that errors name.
+#[derive(Clone, Copy)]
+pub(crate) struct Source<'a> {
+    pub(crate) path: &'a Path,
+    pub(crate) text: &'a str,
+}
+
+/// What an error says, apart from where.
+pub(crate) struct Complaint {
+    /// What is wrong.
+    pub(crate) title: String,
+    /// What stands under the caret.
+    pub(crate) label: String,
+    /// How to mend it.
+    pub(crate) help: Option<String>,
+}
+
+impl Complaint {
+    pub(crate) fn new(title: impl Into<String>, label: impl Into<String>) -> Complaint {
+        Complaint {
+            title: title.into(),
+            label: label.into(),
+            help: None,
+        }
+    }
+
+    pub(crate) fn help(mut self, help: impl Into<String>) -> Complaint {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// Adds "did you mean" where one of the candidates is similar, or else lists them.
+    pub(crate) fn suggest<'n>(
+        self,
+        wanted: &str,
+        candidates: impl Iterator<Item = &'n str> + Clone,
+    ) -> Complaint {
+        let similarity = |name: &&str| strsim::jaro_winkler(wanted, name);
+        let nearest = candidates
+            .clone()
+            .max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
+        match nearest {
+            Some(nearest) if similarity(&nearest) > 0.7 => {
+                self.help(format!("did you mean `{nearest}`?"))
+            }
+            Some(_) => {
+                let names: Vec<&str> = candidates.take(12).collect();
+                self.help(format!("there are: {}", names.join(", ")))
+            }
+            None => self,
+        }
+    }
+}
+
+impl Source<'_> {
+    /// An error at a range of bytes of the text.
+    pub(crate) fn error(&self, span: Range<usize>, complaint: &Complaint) -> SceneError {
+        let path = self.path.display().to_string();
+        let annotation = AnnotationKind::Primary
+            .span(span)
+            .label(complaint.label.as_str());
+        let snippet = Snippet::source(self.text)
+            .path(path.as_str())
+            .annotation(annotation);
+        let mut group = Level::ERROR
+            .primary_title(complaint.title.as_str())
+            .element(snippet);
+        if let Some(help) = &complaint.help {
+            group = group.element(Level::HELP.message(help.as_str()));
+        }
+        SceneError {
+            report: Renderer::plain().render(&[group]),
+        }
+    }
+
+    /// An error in a whole line, counted from 1.
+    pub(crate) fn error_in_line(&self, line: usize, complaint: &Complaint) -> SceneError {
+        let start: usize = self
+            .text
+            .split_inclusive('\n')
+            .take(line.saturating_sub(1))
+            .map(str::len)
+            .sum();
+        let length = self.text[start..].lines().next().map_or(0, str::len);
+        self.error(start..start + length, complaint)
+    }
+}
+
+impl SceneError {
+    /// An error of a whole file.
+    pub(crate) fn of_file(path: &Path, title: &str, help: &str) -> SceneError {
+        let path = path.display();
+        SceneError {
+            report: format!("error: {title}\n  --> {path}\n   = help: {help}"),
+        }
+    }
+}

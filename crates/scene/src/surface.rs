@@ -1,0 +1,258 @@
+//! `[[surfaces]]`.
+
+use crate::material::Material;
+use crate::obj;
+use crate::scene::Surface;
+use crate::source::{Complaint, SceneError, Source};
+use crate::values::{Counts, Vector, divisions, require, vector};
+use radiosity_geometry::{self as geometry, DVec3, Divisions, PolygonMesh, Shape};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+use toml::Spanned;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SurfaceTable {
+    name: Spanned<String>,
+    material: Spanned<String>,
+    /// For meshes: from the names of groups and materials in the mesh file.
+    #[serde(default)]
+    materials: BTreeMap<Spanned<String>, Spanned<String>>,
+    parallelogram: Option<Spanned<ParallelogramTable>>,
+    triangle: Option<Spanned<Vec<Vector>>>,
+    quad: Option<Spanned<Vec<Vector>>>,
+    mesh: Option<Spanned<MeshTable>>,
+    divisions: Option<Spanned<Counts>>,
+    max_patch_edge: Option<Spanned<f64>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ParallelogramTable {
+    corner: Vector,
+    edge_a: Vector,
+    edge_b: Vector,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MeshTable {
+    file: Spanned<String>,
+    scale: Option<Spanned<f64>>,
+    translate: Option<Vector>,
+}
+
+/// What surfaces are checked against.
+pub(crate) struct Context<'a> {
+    pub(crate) source: Source<'a>,
+    /// Where the scene file is: mesh paths are relative to it.
+    pub(crate) folder: &'a Path,
+    pub(crate) materials: &'a [Material],
+}
+
+/// A shape, and for meshes the group and material names of each face.
+struct Geometry {
+    shape: Shape,
+    span: std::ops::Range<usize>,
+    labels: Vec<obj::Label>,
+}
+
+impl Context<'_> {
+    /// Checks all surfaces.
+    pub(crate) fn surfaces(
+        &self,
+        tables: &[Spanned<SurfaceTable>],
+    ) -> Result<(Vec<geometry::Surface>, Vec<Surface>), SceneError> {
+        let mut names = BTreeMap::new();
+        let mut result = (Vec::new(), Vec::new());
+        for table in tables {
+            let name = &table.get_ref().name;
+            if names.insert(name.get_ref().clone(), name.span()).is_some() {
+                let title = format!("there are two surfaces named `{}`", name.get_ref());
+                let complaint = Complaint::new(title, "choose another name");
+                return Err(self.source.error(name.span(), &complaint));
+            }
+            let (shape, surface) = self.surface(table)?;
+            result.0.push(shape);
+            result.1.push(surface);
+        }
+        Ok(result)
+    }
+
+    fn surface(
+        &self,
+        spanned: &Spanned<SurfaceTable>,
+    ) -> Result<(geometry::Surface, Surface), SceneError> {
+        let table = spanned.get_ref();
+        let name = table.name.get_ref();
+        let Geometry {
+            shape,
+            span,
+            labels,
+        } = self.geometry(table)?;
+        let polygons = shape.polygons().map_err(|error| {
+            let complaint = Complaint::new(format!("surface `{name}` {error}"), "this shape");
+            self.source.error(span, &complaint)
+        })?;
+        let (counts, max_edge) = (table.divisions.as_ref(), table.max_patch_edge.as_ref());
+        let divisions = divisions(&self.source, counts, max_edge)?;
+        let has_triangles = polygons.iter().any(|(_, polygon)| polygon.is_triangle());
+        if let (Some(Divisions::Count { a, b }), Some(counts)) = (divisions, counts)
+            && has_triangles
+            && a != b
+        {
+            let title = format!("surface `{name}` is made of triangles");
+            let complaint = Complaint::new(title, "give one number");
+            return Err(self.source.error(counts.span(), &complaint));
+        }
+        let surface = Surface {
+            name: name.clone(),
+            materials: self.materials_of(table, &labels)?,
+        };
+        Ok((geometry::Surface { shape, divisions }, surface))
+    }
+
+    fn geometry(&self, table: &SurfaceTable) -> Result<Geometry, SceneError> {
+        let of_one_face = |shape, span| Geometry {
+            shape,
+            span,
+            labels: Vec::new(),
+        };
+        match (&table.parallelogram, &table.triangle, &table.quad, &table.mesh) {
+            (Some(p), None, None, None) => {
+                let shape = Shape::Parallelogram {
+                    corner: vector(&self.source, &p.get_ref().corner, "`corner`")?,
+                    edge_a: vector(&self.source, &p.get_ref().edge_a, "`edge_a`")?,
+                    edge_b: vector(&self.source, &p.get_ref().edge_b, "`edge_b`")?,
+                };
+                Ok(of_one_face(shape, p.span()))
+            }
+            (None, Some(corners), None, None) => {
+                let shape = Shape::Triangle(self.corners(corners)?);
+                Ok(of_one_face(shape, corners.span()))
+            }
+            (None, None, Some(corners), None) => {
+                let shape = Shape::Quad(self.corners(corners)?);
+                Ok(of_one_face(shape, corners.span()))
+            }
+            (None, None, None, Some(mesh)) => self.mesh(mesh.get_ref()),
+            _ => {
+                let title = format!("surface `{}` needs exactly one shape", table.name.get_ref());
+                let label = "one of `parallelogram`, `triangle`, `quad`, `mesh`";
+                let complaint = Complaint::new(title, label);
+                Err(self.source.error(table.name.span(), &complaint))
+            }
+        }
+    }
+
+    fn corners<const N: usize>(
+        &self,
+        corners: &Spanned<Vec<Vector>>,
+    ) -> Result<[DVec3; N], SceneError> {
+        let points: Vec<DVec3> = corners
+            .get_ref()
+            .iter()
+            .map(|corner| vector(&self.source, corner, "a corner"))
+            .collect::<Result<_, _>>()?;
+        let found = points.len();
+        points.try_into().map_err(|_| {
+            let title = format!("a shape with {N} corners has {found}");
+            let complaint = Complaint::new(title, format!("give {N} points"));
+            self.source.error(corners.span(), &complaint)
+        })
+    }
+
+    fn mesh(&self, table: &MeshTable) -> Result<Geometry, SceneError> {
+        let path = self.folder.join(table.file.get_ref());
+        let text = std::fs::read_to_string(&path).map_err(|error| {
+            let file = table.file.get_ref();
+            let complaint = Complaint::new(format!("cannot read the mesh `{file}`: {error}"), "")
+                .suggest(file, self.obj_files().iter().map(String::as_str));
+            self.source.error(table.file.span(), &complaint)
+        })?;
+        let obj::ObjMesh { mut mesh, labels } = obj::parse(&Source {
+            path: &path,
+            text: &text,
+        })?;
+        self.transform(table, &mut mesh)?;
+        Ok(Geometry {
+            shape: Shape::Mesh(mesh),
+            span: table.file.span(),
+            labels,
+        })
+    }
+
+    fn transform(&self, table: &MeshTable, mesh: &mut PolygonMesh) -> Result<(), SceneError> {
+        let mut scale = 1.0;
+        if let Some(entry) = &table.scale {
+            let positive = |&x: &f64| x > 0.0 && x.is_finite();
+            require(&self.source, entry, positive, "`scale`", "a positive number")?;
+            scale = *entry.get_ref();
+        }
+        let offset = match &table.translate {
+            Some(offset) => vector(&self.source, offset, "`translate`")?,
+            None => DVec3::ZERO,
+        };
+        for position in &mut mesh.positions {
+            *position = scale * *position + offset;
+        }
+        Ok(())
+    }
+
+    /// The mesh files beside the scene, for suggestions.
+    fn obj_files(&self) -> Vec<String> {
+        let Ok(entries) = std::fs::read_dir(self.folder) else {
+            return Vec::new();
+        };
+        let mut names: Vec<String> = entries
+            .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+            .filter(|name| name.ends_with(".obj"))
+            .collect();
+        names.sort();
+        names
+    }
+
+    /// The material of each face: by its material name in the mesh file, else by its group,
+    /// else the surface's own.
+    fn materials_of(
+        &self,
+        table: &SurfaceTable,
+        labels: &[obj::Label],
+    ) -> Result<Vec<usize>, SceneError> {
+        let default = self.material(&table.material)?;
+        let mut by_label = BTreeMap::new();
+        for (label, material) in &table.materials {
+            let known = |l: &obj::Label| l.names().any(|name| name == label.get_ref());
+            if !labels.iter().any(known) {
+                let title = format!("the mesh has no group or material `{}`", label.get_ref());
+                let mut names: Vec<&str> = labels.iter().flat_map(obj::Label::names).collect();
+                names.sort_unstable();
+                names.dedup();
+                let complaint = Complaint::new(title, "not in the mesh file")
+                    .suggest(label.get_ref(), names.into_iter());
+                return Err(self.source.error(label.span(), &complaint));
+            }
+            by_label.insert(label.get_ref().as_str(), self.material(material)?);
+        }
+        if labels.is_empty() {
+            return Ok(vec![default]);
+        }
+        let of_face = |label: &obj::Label| {
+            let mut named = label.names().filter_map(|name| by_label.get(name));
+            named.next().copied().unwrap_or(default)
+        };
+        Ok(labels.iter().map(of_face).collect())
+    }
+
+    fn material(&self, name: &Spanned<String>) -> Result<usize, SceneError> {
+        let wanted = name.get_ref();
+        let position = self.materials.iter().position(|m| m.name == *wanted);
+        position.ok_or_else(|| {
+            let known = self.materials.iter().map(|m| m.name.as_str());
+            let complaint = Complaint::new(format!("there is no material `{wanted}`"), "unknown")
+                .suggest(wanted, known);
+            self.source.error(name.span(), &complaint)
+        })
+    }
+}

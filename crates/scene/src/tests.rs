@@ -1,0 +1,248 @@
+//! What scenes mean when they are right, and what is said when they are wrong.
+
+use crate::{Mode, Scene, parse};
+use proptest::prelude::*;
+use radiosity_geometry::{DVec3, Divisions, Shape, SurfaceId};
+use std::fmt::Write;
+use std::path::Path;
+
+const GOOD: &str = r#"
+[camera]
+position = [0, 0, 5]
+look_at = [0, 0, 0]
+vertical_fov = 40
+
+[materials.white]
+reflectance = 0.75
+
+[materials.lamp]
+reflectance = [0.1, 0.2, 0.3]
+emission = 12
+
+[[surfaces]]
+name = "floor"
+material = "white"
+divisions = [3, 4]
+parallelogram = { corner = [0, 0, 0], edge_a = [1, 0, 0], edge_b = [0, 1, 0] }
+
+[[surfaces]]
+name = "wing"
+material = "lamp"
+max_patch_edge = 0.25
+triangle = [[0, 0, 1], [1, 0, 1], [0, 1, 1]]
+"#;
+
+fn parse_text(text: &str) -> Result<Scene, String> {
+    parse(Path::new("scenes/test.toml"), text).map_err(|error| error.to_string())
+}
+
+/// The error after one replacement in a good scene.
+fn error_of(from: &str, to: &str) -> String {
+    assert!(GOOD.contains(from), "{from}");
+    parse_text(&GOOD.replacen(from, to, 1)).expect_err(to)
+}
+
+#[test]
+fn a_scene_means_what_it_says() {
+    let scene = parse_text(GOOD).unwrap();
+    assert_eq!(scene.name, "test");
+    assert_eq!(scene.surfaces[1].name, "wing");
+    assert_eq!(scene.geometry[0].divisions, Some(Divisions::Count { a: 3, b: 4 }));
+    assert_eq!(scene.geometry[1].divisions, Some(Divisions::MaxEdge(0.25)));
+    assert_eq!(scene.material(SurfaceId(0), 0).reflectance, [0.75; 3]);
+    assert_eq!(scene.material(SurfaceId(1), 0).emission, [12.0; 3]);
+    assert!(matches!(scene.geometry[1].shape, Shape::Triangle(_)));
+    assert!(scene.camera.is_some());
+}
+
+#[test]
+fn what_is_not_said_has_defaults() {
+    let scene = parse_text(GOOD).unwrap();
+    assert_eq!(scene.divisions, Divisions::uniform(12));
+    assert_eq!((scene.image.width, scene.image.height), (640, 480));
+    assert_eq!((scene.image.subpixels, scene.image.samples), (2, 4));
+    assert_eq!((scene.image.exposure, scene.image.gamma), (1.0, 2.2));
+    assert_eq!((scene.form_factors.mode, scene.form_factors.points), (Mode::Regular, 3));
+    assert_eq!((scene.solver.tolerance, scene.solver.max_sweeps), (1e-6, 200));
+}
+
+/// One mistake per line; the messages are in the snapshot, to be read as a user would.
+#[test]
+fn mistakes_are_explained() {
+    let mistakes = [
+        ("reflectance = 0.75", "reflectance = 1.5"),
+        ("reflectance = 0.75", "reflectance = nan"),
+        ("reflectance = 0.75", "reflectance = [0.5, 0.5]"),
+        ("reflectance = 0.75", "reflectance = \"white\""),
+        ("reflectance = 0.75", "reflectence = 0.75"),
+        ("reflectance = 0.75", ""),
+        ("emission = 12", "emission = [12, -1, 0]"),
+        ("material = \"white\"", "material = \"whit\""),
+        ("material = \"white\"", "material = \"xyz\""),
+        ("name = \"wing\"", "name = \"floor\""),
+        ("edge_b = [0, 1, 0]", "edge_b = [2, 0, 0]"),
+        ("edge_b = [0, 1, 0]", "edge_b = [inf, 0, 0]"),
+        ("edge_b = [0, 1, 0]", "edge_b = [0, 1]"),
+        ("[1, 0, 1], ", ""),
+        ("parallelogram = ", "triangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nparallelogram = "),
+        ("parallelogram = ", "quad = "),
+        (
+            "triangle = [[0, 0, 1], [1, 0, 1], [0, 1, 1]]",
+            "quad = [[0, 0, 1], [1, 0, 1], [1, 1, 2], [0, 1, 1]]",
+        ),
+        ("max_patch_edge = 0.25", "divisions = [2, 3]"),
+        ("max_patch_edge = 0.25", "divisions = 0"),
+        ("max_patch_edge = 0.25", "divisions = -3"),
+        ("max_patch_edge = 0.25", "max_patch_edge = 0"),
+        ("divisions = [3, 4]", "divisions = 3\nmax_patch_edge = 0.5"),
+        ("look_at = [0, 0, 0]", "look_at = [0, 0, 5]"),
+        ("look_at = [0, 0, 0]", "look_at = [0, 7, 5]"),
+        ("look_at = [0, 0, 0]", ""),
+        ("vertical_fov = 40", "vertical_fov = 180"),
+        ("[camera]", "[image]\nwidth = 0\n[camera]"),
+        ("[camera]", "[image]\nexposure = -1\n[camera]"),
+        ("[camera]", "[form_factors]\nmode = \"reguler\"\n[camera]"),
+        ("[camera]", "[solver]\ntolerance = 0\n[camera]"),
+        ("[camera]", "[camra]"),
+        ("[camera]", "[camera"),
+        (
+            "parallelogram = { corner = [0, 0, 0], edge_a = [1, 0, 0], edge_b = [0, 1, 0] }",
+            "mesh = { file = \"missing.obj\" }",
+        ),
+    ];
+    let mut report = String::new();
+    for (from, to) in mistakes {
+        let to_line = to.replace('\n', " | ");
+        writeln!(report, "{from}  =>  {to_line}\n{}\n", error_of(from, to)).unwrap();
+    }
+    insta::assert_snapshot!(report);
+}
+
+/// A scene of one mesh, in a folder of its own.
+struct MeshScene(tempfile::TempDir);
+
+impl MeshScene {
+    fn new(obj: &str) -> MeshScene {
+        let folder = tempfile::TempDir::new().unwrap();
+        std::fs::write(folder.path().join("model.obj"), obj).unwrap();
+        MeshScene(folder)
+    }
+
+    fn parse(&self, file: &str, extra: &str) -> Result<Scene, String> {
+        let text = format!(
+            "[materials.a]\nreflectance = 0.1\n[materials.b]\nreflectance = 0.2\n\
+             [[surfaces]]\nname = \"thing\"\nmaterial = \"a\"\nmesh = {{ file = \"{file}\"{extra}\n"
+        );
+        let folder = self.0.path().display().to_string();
+        parse(&self.0.path().join("scene.toml"), &text)
+            .map_err(|error| error.to_string().replace(&folder, "FOLDER"))
+    }
+}
+
+const TWO_GROUPS: &str = "# two groups\nmtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n\
+    v 0 0 1\ng base\nf 1 2 3 4\ng side\nusemtl shiny thing\nf 1 2 5\n";
+
+fn reflectances(scene: &Scene) -> Vec<f64> {
+    let materials = &scene.surfaces[0].materials;
+    materials.iter().map(|&m| scene.materials[m].reflectance[0]).collect()
+}
+
+#[test]
+fn meshes_take_materials_by_group_or_material_name() {
+    let scene = MeshScene::new(TWO_GROUPS);
+    let parse = |extra| scene.parse("model.obj", extra).unwrap();
+    assert_eq!(reflectances(&parse(" }")), [0.1, 0.1]);
+    assert_eq!(reflectances(&parse(" }\nmaterials = { base = \"b\" }")), [0.2, 0.1]);
+    assert_eq!(reflectances(&parse(" }\nmaterials = { side = \"b\" }")), [0.1, 0.2]);
+    let both = parse(" }\nmaterials = { side = \"a\", \"shiny thing\" = \"b\" }");
+    assert_eq!(reflectances(&both), [0.1, 0.2], "the material name is the more specific one");
+}
+
+#[test]
+fn mesh_quads_stay_and_larger_polygons_become_triangles() {
+    let faces = |obj: &str| {
+        let scene = MeshScene::new(obj).parse("model.obj", " }").unwrap();
+        let Shape::Mesh(mesh) = &scene.geometry[0].shape else { panic!() };
+        mesh.faces.iter().map(Vec::len).collect::<Vec<_>>()
+    };
+    assert_eq!(faces(TWO_GROUPS), [4, 3]);
+    // An L of six corners: a fan from its first corner would leave it.
+    let l = "v 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nf 1 2 3 4 5 6\n";
+    assert_eq!(faces(l), [3, 3, 3, 3]);
+    let scene = MeshScene::new(l).parse("model.obj", " }").unwrap();
+    let polygons = scene.geometry[0].shape.polygons().unwrap();
+    let area: DVec3 = polygons.iter().map(|(_, p)| p.area_vector()).sum();
+    assert_eq!(area, DVec3::new(0.0, 0.0, 3.0));
+    assert!(polygons.iter().all(|(_, p)| p.area_vector().z > 0.0));
+}
+
+#[test]
+fn meshes_are_scaled_and_then_moved() {
+    let scene = MeshScene::new(TWO_GROUPS);
+    let scene = scene.parse("model.obj", ", scale = 2, translate = [0, 0, 7] }").unwrap();
+    let Shape::Mesh(mesh) = &scene.geometry[0].shape else { panic!() };
+    assert!(mesh.positions.contains(&DVec3::new(2.0, 2.0, 7.0)));
+}
+
+#[test]
+fn mesh_mistakes_are_explained() {
+    let mut report = String::new();
+    let mut add = |obj: &str, file: &str, extra: &str| {
+        let error = MeshScene::new(obj).parse(file, extra).expect_err(obj);
+        writeln!(report, "{error}\n").unwrap();
+    };
+    add("v 0 0 0\nv 1 x 0\n", "model.obj", " }");
+    add("v 0 0 0\nv 1 0 0\nv 0 1 0\n# fine so far\nf 1 2 9\n", "model.obj", " }");
+    add("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 three\n", "model.obj", " }");
+    add("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "model.obj", " }");
+    add("v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n", "model.obj", " }");
+    add("# nothing here\n", "model.obj", " }");
+    add(TWO_GROUPS, "modle.obj", " }");
+    add(TWO_GROUPS, "model.obj", ", scale = 0 }");
+    add(TWO_GROUPS, "model.obj", " }\nmaterials = { bse = \"b\" }");
+    add(TWO_GROUPS, "model.obj", " }\nmaterials = { base = \"c\" }");
+    insta::assert_snapshot!(report);
+}
+
+#[test]
+fn shipped_scenes_are_good_and_open_with_a_comment() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let mut names = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|e| e == "toml") {
+            let scene = crate::load(&path).unwrap_or_else(|error| panic!("{error}"));
+            let text = std::fs::read_to_string(&path).unwrap();
+            assert!(text.starts_with("# "), "{}", path.display());
+            assert!(scene.camera.is_some());
+            names.push(scene.name);
+        }
+    }
+    for name in ["cornell", "cornell-closed", "cornell-triangles", "furnace", "knot"] {
+        assert!(names.iter().any(|n| n == name), "{name}");
+    }
+}
+
+proptest! {
+    /// Whatever a damaged file says: an error or a scene, never a panic.
+    #[test]
+    fn damaged_scenes_do_no_harm(at in 0usize..600, cut in 0usize..40, insert in ".{0,8}") {
+        let mut chars: Vec<char> = GOOD.chars().collect();
+        let start = at.min(chars.len());
+        let end = (start + cut).min(chars.len());
+        chars.splice(start..end, insert.chars());
+        let _ = parse_text(&chars.into_iter().collect::<String>());
+    }
+
+    #[test]
+    fn damaged_meshes_do_no_harm(at in 0usize..120, cut in 0usize..20, insert in "[ -~\n]{0,8}") {
+        let mut obj = TWO_GROUPS.to_owned();
+        let start = at.min(obj.len());
+        let end = (start + cut).min(obj.len());
+        obj.replace_range(start..end, &insert);
+        let source = crate::source::Source { path: Path::new("m.obj"), text: &obj };
+        if let Ok(mesh) = crate::obj::parse(&source) {
+            let _ = Shape::Mesh(mesh.mesh).polygons();
+        }
+    }
+}
