@@ -1,1 +1,54 @@
-fn main() {}
+//! `cargo xtask`: the command in a checkout, and its chores.
+
+mod ci;
+mod knot;
+
+use clap::{Parser, Subcommand};
+use radiosity::cli::{Command, EXIT_CODES, Site, run};
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Renders the scenes of this checkout, and does its chores
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", after_help = EXIT_CODES)]
+struct Cli {
+    #[command(subcommand)]
+    task: Task,
+}
+
+#[derive(Debug, Subcommand)]
+enum Task {
+    #[command(flatten)]
+    Radiosity(Command),
+    /// Run everything that a change must pass: format, lints, docs, tests, a render
+    Ci,
+    /// Make a file of the checkout anew
+    Generate {
+        /// Which one
+        #[command(subcommand)]
+        what: Generated,
+    },
+}
+
+#[derive(Clone, Copy, Debug, Subcommand)]
+enum Generated {
+    /// scenes/knot.obj: a tube along a trefoil knot
+    Knot,
+}
+
+fn main() -> ExitCode {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let root = root.canonicalize().unwrap_or(root);
+    // Shown paths are shorter, and user's relative paths mean the same, where we stand in it.
+    let root = match std::env::current_dir() {
+        Ok(here) if here == root => Path::new("").to_owned(),
+        _ => root,
+    };
+    match Cli::parse().task {
+        Task::Radiosity(command) => run(&command, &Site::checkout(&root)),
+        Task::Ci => ci::run(&root),
+        Task::Generate {
+            what: Generated::Knot,
+        } => knot::write(&root.join("scenes/knot.obj")),
+    }
+}

@@ -1,1 +1,46 @@
+//! The radiosity engine: from a scene file to pictures.
+//!
+//! The whole chain is [`Pipeline`]; each stage is one function of one crate:
+//!
+//! | stage | function | turns | into |
+//! |---|---|---|---|
+//! | | [`scene::load`] | a file | [`scene::Scene`] |
+//! | 1 | [`geometry::subdivide`] | surfaces | [`geometry::Mesh`] |
+//! | 2 | [`form_factors::estimate`] | the mesh | [`form_factors::FormFactors`] |
+//! | 3 | [`solver::solve`] | form factors and materials | [`solver::Solution`] |
+//! | 4 | [`renderer::render`] | mesh, radiosities, camera | [`renderer::Pictures`] |
+//!
+//! Form factors and solutions are kept in a [`cache::Store`], each under the digest of what its
+//! stage reads, so a changed lamp does not touch form factors and a changed camera touches
+//! neither.
+//!
+//! ```no_run
+//! use radiosity::{Pipeline, Silent, Sources, scene};
+//!
+//! let scene = scene::load("scenes/cornell.toml".as_ref())?;
+//! let pipeline = Pipeline::new(&scene, None, &Silent)?;
+//! let solved = pipeline.solution(Sources::Cached)?;
+//! let pictures = pipeline.pictures(&solved.solution)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
+pub mod cli;
+mod error;
+mod export;
+mod observer;
+mod pipeline;
+mod report;
+mod resources;
+
+pub use error::Error;
+pub use export::radiosity_csv;
+pub use observer::{Observer, Silent, Stage};
+pub use pipeline::{FormFactorsMade, Origin, Pipeline, RowSummary, Solved, Sources};
+
+pub use radiosity_cache as cache;
+pub use radiosity_form_factors as form_factors;
+pub use radiosity_geometry as geometry;
+pub use radiosity_matrix as matrix;
+pub use radiosity_renderer as renderer;
+pub use radiosity_scene as scene;
+pub use radiosity_solver as solver;

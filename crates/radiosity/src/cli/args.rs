@@ -1,0 +1,293 @@
+//! The command line, as clap reads it.
+
+use clap::{Args, Subcommand, ValueEnum};
+use radiosity_geometry::Divisions;
+use radiosity_scene::{Mode, Scene};
+use std::path::PathBuf;
+
+/// The stages, and what helps with them.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Render a scene: form factors, solution and both pictures, each computed only if needed
+    Render(DisplayCommand),
+    /// Compute the form factors of a scene, and cache them
+    FormFactors(FormFactorsCommand),
+    /// Solve anew for the radiosities, with cached form factors where possible
+    Solve(SolveCommand),
+    /// Make the pictures anew, with a cached solution where possible
+    Display(DisplayCommand),
+    /// Check a scene and say what it would take, without computing anything
+    Check(CheckArgs),
+    /// See or empty the cache
+    Cache(CacheCommand),
+}
+
+/// Which scene.
+#[derive(Debug, Args)]
+pub struct SceneArgs {
+    /// A scene file, or the name of one in `scenes/`
+    #[arg(default_value = "cornell")]
+    pub scene: String,
+    /// Patches along each edge of a surface, as N or AxB, instead of the scene's default;
+    /// surfaces with divisions of their own keep them
+    #[arg(long, value_name = "N", value_parser = parse_counts, conflicts_with = "max_patch_edge")]
+    pub patches: Option<(u32, u32)>,
+    /// Longest edge of a patch, in scene units, instead of the scene's default
+    #[arg(long, value_name = "LENGTH", value_parser = parse_positive)]
+    pub max_patch_edge: Option<f64>,
+}
+
+/// How form factors are estimated, and where artifacts are kept.
+#[derive(Debug, Args)]
+pub struct EstimateArgs {
+    /// Estimator of the form factors
+    #[arg(long, value_enum)]
+    pub mode: Option<ModeArg>,
+    /// Points (or random strata) along each edge of a patch
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub points: Option<u32>,
+    /// Pairs of points per pair of patches, for monte-carlo [default: points^2]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub pairs: Option<u32>,
+    /// Seed of the random points of monte-carlo
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "a comment here would replace the help text")]
+    pub cache: CacheArgs,
+    /// Threads to use [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub threads: Option<u32>,
+    /// Print one JSON object on standard output, and everything else on standard error
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Where artifacts are kept.
+#[derive(Debug, Args)]
+pub struct CacheArgs {
+    /// Folder of cached form factors and solutions
+    #[arg(long = "cache", value_name = "DIR")]
+    pub folder: Option<PathBuf>,
+    /// Compute everything, read and write no cached file
+    #[arg(long, conflicts_with = "folder")]
+    pub no_cache: bool,
+}
+
+/// When the solver stops.
+#[derive(Debug, Args)]
+pub struct SolveArgs {
+    /// Relative residual at which the solver stops
+    #[arg(long, value_name = "X", value_parser = parse_tolerance)]
+    pub tolerance: Option<f64>,
+    /// Most Gauss-Seidel sweeps to take
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub max_sweeps: Option<u32>,
+}
+
+/// How pictures are made.
+#[derive(Debug, Args)]
+pub struct DisplayArgs {
+    /// Size of the pictures in pixels, as WIDTHxHEIGHT
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<(u32, u32)>,
+    /// Sub-pixels along each edge of a pixel
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub subpixels: Option<u32>,
+    /// Samples per sub-pixel
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub samples: Option<u32>,
+    /// Factor from radiance to brightness; what then exceeds 1 is clamped
+    #[arg(long, value_name = "X", value_parser = parse_positive)]
+    pub exposure: Option<f64>,
+    /// Exponent of the screen
+    #[arg(long, value_name = "X", value_parser = parse_positive)]
+    pub gamma: Option<f64>,
+    /// Folder for the pictures
+    #[arg(long, short, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// File formats of the pictures
+    #[arg(long, value_enum, value_delimiter = ',', default_values = ["ppm", "png"])]
+    pub format: Vec<FormatArg>,
+}
+
+/// `form-factors`.
+#[derive(Debug, Args)]
+#[allow(missing_docs, reason = "comments on flattened fields would replace help texts")]
+pub struct FormFactorsCommand {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    #[command(flatten)]
+    pub estimate: EstimateArgs,
+    /// Compute them even if they are cached
+    #[arg(long)]
+    pub recompute: bool,
+}
+
+/// `solve`.
+#[derive(Debug, Args)]
+#[allow(missing_docs, reason = "comments on flattened fields would replace help texts")]
+pub struct SolveCommand {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    #[command(flatten)]
+    pub estimate: EstimateArgs,
+    #[command(flatten)]
+    pub solve: SolveArgs,
+    /// Write the radiosities of all patches: surface,ia,ib,B_r,B_g,B_b in W/m^2
+    #[arg(long, value_name = "FILE.csv", value_parser = parse_csv_path)]
+    pub export: Option<PathBuf>,
+}
+
+/// `render` and `display`.
+#[derive(Debug, Args)]
+#[allow(missing_docs, reason = "comments on flattened fields would replace help texts")]
+pub struct DisplayCommand {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    #[command(flatten)]
+    pub estimate: EstimateArgs,
+    #[command(flatten)]
+    pub solve: SolveArgs,
+    #[command(flatten)]
+    pub display: DisplayArgs,
+}
+
+/// `check`.
+#[derive(Debug, Args)]
+#[allow(missing_docs, reason = "comments on flattened fields would replace help texts")]
+pub struct CheckArgs {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+}
+
+/// `cache`.
+#[derive(Debug, Args)]
+pub struct CacheCommand {
+    /// What to do
+    #[command(subcommand)]
+    pub action: CacheAction,
+    /// Folder of cached form factors and solutions
+    #[arg(long = "cache", value_name = "DIR", global = true)]
+    pub folder: Option<PathBuf>,
+}
+
+/// What to do with the cache.
+#[derive(Clone, Copy, Debug, Subcommand)]
+pub enum CacheAction {
+    /// List the cached artifacts
+    List,
+    /// Remove all of them but those in use
+    Clean,
+}
+
+/// [`Mode`] on the command line.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum ModeArg {
+    /// Fixed points on each patch, all pairs of them
+    Regular,
+    /// Random points; unbounded variance where patches touch
+    MonteCarlo,
+}
+
+/// File formats on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum FormatArg {
+    /// Portable pixmap, binary (P6)
+    Ppm,
+    /// Portable pixmap, text (P3)
+    PlainPpm,
+    /// Portable network graphics, 8 bit
+    Png,
+}
+
+impl SceneArgs {
+    pub(crate) fn apply(&self, scene: &mut Scene) {
+        if let Some((a, b)) = self.patches {
+            scene.divisions = Divisions::Count { a, b };
+        }
+        if let Some(length) = self.max_patch_edge {
+            scene.divisions = Divisions::MaxEdge(length);
+        }
+    }
+}
+
+impl EstimateArgs {
+    pub(crate) fn apply(&self, scene: &mut Scene) {
+        let settings = &mut scene.form_factors;
+        let mode = self.mode.map(|mode| match mode {
+            ModeArg::Regular => Mode::Regular,
+            ModeArg::MonteCarlo => Mode::MonteCarlo,
+        });
+        set(&mut settings.mode, mode);
+        set(&mut settings.points, self.points);
+        set(&mut settings.seed, self.seed);
+        settings.pairs = self.pairs.or(settings.pairs);
+    }
+}
+
+impl SolveArgs {
+    pub(crate) fn apply(&self, scene: &mut Scene) {
+        set(&mut scene.solver.tolerance, self.tolerance);
+        set(&mut scene.solver.max_sweeps, self.max_sweeps);
+    }
+}
+
+impl DisplayArgs {
+    pub(crate) fn apply(&self, scene: &mut Scene) {
+        let image = &mut scene.image;
+        set(&mut image.width, self.size.map(|(width, _)| width));
+        set(&mut image.height, self.size.map(|(_, height)| height));
+        set(&mut image.subpixels, self.subpixels);
+        set(&mut image.samples, self.samples);
+        set(&mut image.exposure, self.exposure);
+        set(&mut image.gamma, self.gamma);
+    }
+}
+
+fn set<T>(setting: &mut T, flag: Option<T>) {
+    if let Some(value) = flag {
+        *setting = value;
+    }
+}
+
+fn parse_counts(text: &str) -> Result<(u32, u32), String> {
+    let counts = match text.split_once('x') {
+        Some((a, b)) => (a.parse(), b.parse()),
+        None => (text.parse(), text.parse()),
+    };
+    match counts {
+        (Ok(a), Ok(b)) if a > 0 && b > 0 => Ok((a, b)),
+        _ => Err("expected a positive whole number like 12, or two like 12x8".to_owned()),
+    }
+}
+
+fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let limits = 1..=1 << 16;
+    match parse_counts(text) {
+        Ok((w, h)) if text.contains('x') && limits.contains(&w) && limits.contains(&h) => Ok((w, h)),
+        _ => Err("expected width and height between 1 and 65536, like 640x480".to_owned()),
+    }
+}
+
+fn parse_positive(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(x) if x > 0.0 && f64::is_finite(x) => Ok(x),
+        _ => Err("expected a positive number".to_owned()),
+    }
+}
+
+fn parse_tolerance(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(x) if x > 0.0 && x < 1.0 => Ok(x),
+        _ => Err("expected a number between 0 and 1, like 1e-6".to_owned()),
+    }
+}
+
+fn parse_csv_path(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension() {
+        Some(extension) if extension == "csv" => Ok(path),
+        _ => Err("expected a path that ends in .csv".to_owned()),
+    }
+}

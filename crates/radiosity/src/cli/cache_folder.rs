@@ -1,0 +1,48 @@
+//! `cache list` and `cache clean`.
+
+use super::args::{CacheAction, CacheCommand};
+use super::site::Site;
+use crate::error::Error;
+use crate::resources::bytes;
+use radiosity_cache::{Entry, Store};
+
+pub(crate) fn run(command: &CacheCommand, site: &Site) -> Result<(), Error> {
+    let folder = command.folder.as_ref().unwrap_or(&site.cache);
+    let store = Store::new(folder);
+    match command.action {
+        CacheAction::List => list(&store),
+        CacheAction::Clean => {
+            let (files, size) = store.clean()?;
+            let folder = folder.display();
+            println!("removed {files} files ({}) from {folder}", bytes(size));
+            Ok(())
+        }
+    }
+}
+
+fn list(store: &Store) -> Result<(), Error> {
+    let entries = store.list()?;
+    for entry in &entries {
+        println!("{}", describe(entry));
+    }
+    let size = entries.iter().map(|entry| entry.bytes).sum();
+    let (count, folder) = (entries.len(), store.folder().display());
+    println!("{count} artifacts ({}) in {folder}", bytes(size));
+    Ok(())
+}
+
+fn describe(entry: &Entry) -> String {
+    let stage = match &entry.stage {
+        Ok(stage) => stage.clone(),
+        Err(miss) => format!("unusable: {miss}"),
+    };
+    let age = entry.modified.and_then(|time| time.elapsed().ok());
+    let age = age.map_or(String::new(), |age| match age.as_secs() {
+        s if s < 60 => "just now".to_owned(),
+        s if s < 3600 => format!("{} min ago", s / 60),
+        s if s < 86_400 => format!("{} h ago", s / 3600),
+        s => format!("{} days ago", s / 86_400),
+    });
+    let name = entry.path.file_name().unwrap_or_default().to_string_lossy();
+    format!("{stage:<14}{:>8}  {age:<12}{name}", bytes(entry.bytes))
+}

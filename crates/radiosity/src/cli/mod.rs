@@ -1,0 +1,24 @@
+//! The command: what `radiosity` and `cargo xtask` share.
+
+mod args;
+mod cache_folder;
+mod run;
+mod site;
+pub(crate) mod terminal;
+
+pub use args::{
+    CacheArgs, CacheAction, CacheCommand, CheckArgs, Command, DisplayArgs, DisplayCommand, EstimateArgs,
+    FormFactorsCommand, SceneArgs, SolveArgs, SolveCommand,
+};
+pub use run::run;
+pub use site::Site;
+
+/// For the end of help texts.
+pub const EXIT_CODES: &str = "\
+Exit codes:
+  0  done, warnings included
+  1  a file cannot be written, or another failure
+  2  the command line is wrong
+  3  the scene is wrong
+  4  the machine has too little memory or disk
+  5  the system of equations has no solution";

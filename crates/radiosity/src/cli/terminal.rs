@@ -1,0 +1,75 @@
+//! Progress bars, notes and lines on the terminal.
+
+use crate::observer::{Observer, Stage};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::Write;
+use std::sync::Mutex;
+
+/// Shows progress on standard error if that is a terminal, and prints lines.
+pub(crate) struct Terminal {
+    bar: Mutex<Option<ProgressBar>>,
+    /// Whether lines for people go to standard error, to leave standard output to JSON.
+    json: bool,
+}
+
+impl Terminal {
+    pub(crate) fn new(json: bool) -> Terminal {
+        Terminal {
+            bar: Mutex::new(None),
+            json,
+        }
+    }
+
+    /// One line of the report for people.
+    pub(crate) fn line(&self, text: &str) {
+        // A closed pipe (`| head`) is no reason to lose the run.
+        let _ = if self.json {
+            writeln!(std::io::stderr(), "{text}")
+        } else {
+            writeln!(std::io::stdout(), "{text}")
+        };
+    }
+
+    fn bar(&self) -> std::sync::MutexGuard<'_, Option<ProgressBar>> {
+        self.bar.lock().expect("nothing panics while it holds a bar")
+    }
+}
+
+impl Observer for Terminal {
+    fn begin(&self, stage: Stage, work: u64) {
+        let (name, unit) = match stage {
+            Stage::FormFactors => ("form factors", "pairs"),
+            Stage::Solve => ("solution", "sweeps"),
+            Stage::Display => ("pictures", "rows"),
+        };
+        let template = format!(
+            "{name:<14}{{bar:30}} {{percent:>3}} %  {{human_pos}} of {{human_len}} {unit}  \
+             {{per_sec}}  {{eta}} left"
+        );
+        let style = ProgressStyle::with_template(&template).expect("the template is well-formed");
+        // Draws on standard error, and nothing at all where that is no terminal.
+        *self.bar() = Some(ProgressBar::new(work).with_style(style));
+    }
+
+    fn advance(&self, done: u64) {
+        if let Some(bar) = &*self.bar() {
+            bar.inc(done);
+        }
+    }
+
+    fn end(&self) {
+        if let Some(bar) = self.bar().take() {
+            bar.finish_and_clear();
+        }
+    }
+
+    fn note(&self, message: &str) {
+        let print = || {
+            let _ = writeln!(std::io::stderr(), "{:<14}{message}", "");
+        };
+        match &*self.bar() {
+            Some(bar) => bar.suspend(print),
+            None => print(),
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! What can go wrong, for people and for exit codes.
+
+use radiosity_cache::CacheError;
+use radiosity_geometry::MeshError;
+use radiosity_scene::{Scene, SceneError};
+use radiosity_solver::SolveError;
+use std::path::PathBuf;
+
+/// Why a run ended without its result.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A scene or mesh file is wrong.
+    #[error("{0}")]
+    Scene(#[from] SceneError),
+    /// No scene goes by that name.
+    #[error("error: there is no scene `{wanted}`\n   = help: {help}")]
+    NoSuchScene {
+        /// What was asked for.
+        wanted: String,
+        /// What there is.
+        help: String,
+    },
+    /// A picture was asked of a scene without a camera.
+    #[error(
+        "error: the scene has no camera\n   = help: add a [camera] with `position`, `look_at` and `vertical_fov`"
+    )]
+    NoCamera,
+    /// The surfaces cannot be cut into patches.
+    #[error("error: {0}")]
+    Mesh(String),
+    /// The machine is too small.
+    #[error("error: {problem}\n   = help: {remedy}")]
+    Resources {
+        /// What is missing.
+        problem: String,
+        /// What to do.
+        remedy: String,
+    },
+    /// The system of equations has no solution.
+    #[error("error: {problem}\n   = help: {remedy}")]
+    Unsolvable {
+        /// Why, and at which surfaces.
+        problem: String,
+        /// What to do.
+        remedy: String,
+    },
+    /// The cache folder cannot be used.
+    #[error("error: {0}\n   = help: choose another folder with --cache, or use --no-cache")]
+    Cache(#[from] CacheError),
+    /// A result cannot be written.
+    #[error("error: cannot write {}: {error}", path.display())]
+    Output {
+        /// The file.
+        path: PathBuf,
+        /// What went wrong.
+        #[source]
+        error: std::io::Error,
+    },
+}
+
+impl Error {
+    /// The exit code of the command.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Error::Cache(_) | Error::Output { .. } => 1,
+            Error::Scene(_) | Error::NoSuchScene { .. } | Error::NoCamera | Error::Mesh(_) => 3,
+            Error::Resources { .. } => 4,
+            Error::Unsolvable { .. } => 5,
+        }
+    }
+
+    /// Names the surface that a mesh error is about.
+    pub(crate) fn of_mesh(scene: &Scene, error: &MeshError) -> Error {
+        let name = |id: &radiosity_geometry::SurfaceId| &scene.surfaces[id.index()].name;
+        Error::Mesh(match error {
+            MeshError::Shape { surface, error } => format!("surface `{}` {error}", name(surface)),
+            MeshError::TwoCountsOnTriangle { surface, a, b } => format!(
+                "surface `{}` is made of triangles, which take one count, not {a}x{b}",
+                name(surface)
+            ),
+            MeshError::NoDivisions { surface } => {
+                let name = name(surface);
+                format!("surface `{name}` has no usable subdivision: counts and lengths must be positive")
+            }
+            other => other.to_string(),
+        })
+    }
+
+    /// Names the surfaces of the patches that a solver error is about.
+    pub(crate) fn of_solver(error: &SolveError, name_of: impl Fn(usize) -> String) -> Error {
+        match error {
+            SolveError::Diverges { worst_patches, .. } => {
+                let mut names: Vec<String> = Vec::new();
+                for name in worst_patches.iter().map(|&patch| name_of(patch)) {
+                    if !names.contains(&name) {
+                        names.push(name);
+                    }
+                }
+                let names = names.join("`, `");
+                Error::Unsolvable {
+                    problem: format!("{error}; the worst rows belong to `{names}`"),
+                    remedy: "lower the reflectances there, or estimate the form factors with \
+                             more points (--points) or finer patches (--patches)"
+                        .to_owned(),
+                }
+            }
+            SolveError::NotFinite { patch } => Error::Unsolvable {
+                problem: format!("{error}; it belongs to `{}`", name_of(*patch)),
+                remedy: "use numbers of ordinary size in the scene".to_owned(),
+            },
+        }
+    }
+}

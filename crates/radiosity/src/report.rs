@@ -1,0 +1,233 @@
+//! What a run has to say, as lines for people and as JSON for scripts.
+
+use crate::cli::terminal::Terminal;
+use crate::error::Error;
+use crate::pipeline::{Origin, Pipeline, RowSummary};
+use crate::resources::{Needs, bytes, grouped};
+use radiosity_geometry::{Mesh, count_patches};
+use radiosity_scene::Scene;
+use radiosity_solver::{Energy, Solution};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Collects what happened; prints each line as soon as it is known.
+pub(crate) struct Report<'a> {
+    terminal: &'a Terminal,
+    json: Json,
+}
+
+/// The object that `--json` prints. Fields may be added, but not changed or removed.
+#[derive(Debug, Serialize)]
+struct Json {
+    /// The scene's name.
+    scene: String,
+    /// How many patches it was cut into.
+    patches: usize,
+    /// The stages that ran; others are absent.
+    stages: Stages,
+    /// Written files: `constant` and `smooth` for the first picture format, `constant_png` and
+    /// the like for others, `export` for a table.
+    outputs: BTreeMap<String, String>,
+}
+
+#[derive(Debug, Default, Serialize)]
+struct Stages {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    form_factors: Option<FormFactorReport>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    solve: Option<SolveReport>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    display: Option<DisplayReport>,
+}
+
+#[derive(Debug, Serialize)]
+struct FormFactorReport {
+    seconds: f64,
+    cached: bool,
+    /// Why they were computed; null if cached.
+    reason: Option<String>,
+    row_sum_mean: f64,
+    /// The largest |row sum - 1|; in open scenes no error.
+    row_sum_max_error: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct SolveReport {
+    seconds: f64,
+    cached: bool,
+    /// Why it was computed; null if cached.
+    reason: Option<String>,
+    sweeps: usize,
+    /// Relative residual of the solution.
+    residual: f64,
+    /// Whether the tolerance was reached.
+    converged: bool,
+    energy_balance: EnergyReport,
+}
+
+/// Per channel, in W.
+#[derive(Debug, Serialize)]
+struct EnergyReport {
+    emitted: [f64; 3],
+    absorbed: [f64; 3],
+    escaped: [f64; 3],
+    /// |emitted - absorbed - escaped| / emitted of the worst channel.
+    imbalance: f64,
+}
+
+#[derive(Debug, Serialize)]
+pub(crate) struct DisplayReport {
+    pub(crate) seconds: f64,
+}
+
+impl<'a> Report<'a> {
+    pub(crate) fn new(scene: &Scene, mesh: &Mesh, terminal: &'a Terminal) -> Report<'a> {
+        let patches = mesh.patches.len();
+        terminal.line(&scene_line(scene, patches));
+        Report {
+            terminal,
+            json: Json {
+                scene: scene.name.clone(),
+                patches,
+                stages: Stages::default(),
+                outputs: BTreeMap::new(),
+            },
+        }
+    }
+
+    pub(crate) fn form_factors(
+        &mut self,
+        origin: &Origin,
+        rows: &RowSummary,
+        pipeline: &Pipeline<'_>,
+    ) {
+        self.stage_line("form factors", origin);
+        let more = format!("rows sum to {:.4} on average", rows.mean);
+        self.terminal.line(&indented(&more));
+        if rows.over_one > 0 {
+            let patches = pipeline.mesh().patches.len() as u64;
+            let (sum, patch) = rows.largest;
+            self.terminal.line(&indented(&format!(
+                "warning: {} of {} rows sum to more than 1, the worst to {sum:.3} (in `{}`): the \
+                 estimator overestimates patches that touch",
+                grouped(rows.over_one),
+                grouped(patches),
+                pipeline.surface_name(patch as usize),
+            )));
+        }
+        self.json.stages.form_factors = Some(FormFactorReport {
+            seconds: origin.seconds,
+            cached: origin.computed_because.is_none(),
+            reason: origin.computed_because.clone(),
+            row_sum_mean: rows.mean,
+            row_sum_max_error: rows.max_error,
+        });
+    }
+
+    pub(crate) fn solution(&mut self, origin: &Origin, solution: &Solution) {
+        self.stage_line("solution", origin);
+        let report = &solution.report;
+        let (sweeps, residual) = (report.residuals.len(), report.residual());
+        let Energy {
+            emitted,
+            absorbed,
+            escaped,
+        } = report.energy;
+        let percent = |part: [f64; 3]| {
+            let whole: f64 = emitted.iter().sum();
+            let share = if whole > 0.0 { part.iter().sum::<f64>() / whole } else { 0.0 };
+            format!("{:.1} %", 100.0 * share)
+        };
+        self.terminal.line(&indented(&format!(
+            "{sweeps} sweeps to residual {residual:.1e}; of the power, {} absorbed, {} escaped",
+            percent(absorbed),
+            percent(escaped),
+        )));
+        if !report.converged {
+            self.terminal.line(&indented(
+                "warning: the tolerance was not reached; allow more sweeps with --max-sweeps",
+            ));
+        }
+        self.json.stages.solve = Some(SolveReport {
+            seconds: origin.seconds,
+            cached: origin.computed_because.is_none(),
+            reason: origin.computed_because.clone(),
+            sweeps,
+            residual,
+            converged: report.converged,
+            energy_balance: EnergyReport {
+                emitted,
+                absorbed,
+                escaped,
+                imbalance: report.energy.imbalance(),
+            },
+        });
+    }
+
+    pub(crate) fn display(&mut self, display: DisplayReport) {
+        let seconds = format!("{:.2} s", display.seconds);
+        self.terminal
+            .line(&format!("{:<14}{:<36}{seconds:>9}", "pictures", "rendered"));
+        self.json.stages.display = Some(display);
+    }
+
+    pub(crate) fn output(&mut self, name: &str, path: &Path) {
+        let path = path.display().to_string();
+        self.terminal.line(&indented(&path));
+        self.json.outputs.insert(name.to_owned(), path);
+    }
+
+    pub(crate) fn json(&self) -> String {
+        serde_json::to_string(&self.json).expect("plain data always encodes")
+    }
+
+    fn stage_line(&self, stage: &str, origin: &Origin) {
+        let how = match &origin.computed_because {
+            None => "cached".to_owned(),
+            Some(reason) => format!("computed ({reason})"),
+        };
+        let file = origin.file.as_ref().and_then(|file| file.file_name());
+        let file = file.unwrap_or_default().to_string_lossy();
+        let (seconds, size) = (format!("{:.2} s", origin.seconds), bytes(origin.bytes));
+        let line = format!("{stage:<14}{how:<36}{seconds:>9}{size:>9}  {file}");
+        self.terminal.line(line.trim_end());
+    }
+}
+
+/// What `check` says.
+pub(crate) fn check_lines(scene: &Scene) -> Result<Vec<String>, Error> {
+    let patches = count_patches(&scene.geometry, scene.divisions)
+        .map_err(|error| Error::of_mesh(scene, &error))?;
+    let needs = Needs::of(patches);
+    let camera = if scene.camera.is_some() { "" } else { " (no camera: it cannot be rendered)" };
+    let mut lines = vec![
+        format!("{}{camera}", scene_line(scene, patches)),
+        format!(
+            "{:<14}{} pairs: {} of memory, {} of disk",
+            "form factors",
+            grouped(needs.pairs),
+            bytes(needs.memory),
+            bytes(needs.disk),
+        ),
+    ];
+    if scene.materials.iter().all(|m| m.emission == [0.0; 3]) {
+        lines.push(indented("warning: nothing emits light; pictures will be black"));
+    }
+    needs.check(None)?;
+    Ok(lines)
+}
+
+fn scene_line(scene: &Scene, patches: usize) -> String {
+    format!(
+        "{:<14}{}: {} surfaces, {} patches",
+        "scene",
+        scene.name,
+        grouped(scene.surfaces.len() as u64),
+        grouped(patches as u64),
+    )
+}
+
+fn indented(text: &str) -> String {
+    format!("{:<14}{text}", "")
+}

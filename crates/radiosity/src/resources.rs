@@ -1,0 +1,142 @@
+//! What a run needs, and whether the machine has it.
+
+use crate::error::Error;
+use radiosity_cache::Store;
+use radiosity_matrix::packed_len;
+use std::path::Path;
+
+/// Predicted needs of the form factor stage.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Needs {
+    pub(crate) patches: usize,
+    pub(crate) pairs: u64,
+    /// Bytes of memory at the peak.
+    pub(crate) memory: u64,
+    /// Bytes of the cached form factors.
+    pub(crate) disk: u64,
+}
+
+/// Patch with its polygon, sample points, materials, radiosities: a generous round figure.
+const BYTES_PER_PATCH: u64 = 2048;
+/// The share of the free memory that a run may take.
+const USABLE_SHARE: f64 = 0.9;
+
+impl Needs {
+    pub(crate) fn of(patches: usize) -> Needs {
+        let pairs = packed_len(patches) as u64;
+        let matrix = 4 * pairs;
+        Needs {
+            patches,
+            pairs,
+            memory: matrix + BYTES_PER_PATCH * patches as u64,
+            disk: matrix + 16 * patches as u64,
+        }
+    }
+
+    /// Refuses what cannot work, with a remedy.
+    pub(crate) fn check(&self, cache: Option<&Store>) -> Result<(), Error> {
+        if let Some(free) = free_memory().map(|free| free as f64 * USABLE_SHARE)
+            && self.memory as f64 > free
+        {
+            return Err(Error::Resources {
+                problem: format!(
+                    "{} patches need {} of memory, but only {} are free",
+                    grouped(self.patches as u64),
+                    bytes(self.memory),
+                    bytes(free as u64),
+                ),
+                remedy: format!(
+                    "use fewer patches (--patches, --max-patch-edge): up to {} fit",
+                    grouped((free / 2.0).sqrt() as u64),
+                ),
+            });
+        }
+        match cache.and_then(|store| free_disk(store.folder())) {
+            Some(free) if self.disk > free => Err(Error::Resources {
+                problem: format!(
+                    "the form factors need {} of disk, but the cache folder has only {} free",
+                    bytes(self.disk),
+                    bytes(free)
+                ),
+                remedy: "use --no-cache, or a folder on another disk with --cache".to_owned(),
+            }),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// What the machine, or the container it runs in, has left; unknown on rare systems.
+fn free_memory() -> Option<u64> {
+    let mut system = sysinfo::System::new().ok()?;
+    system.refresh_memory();
+    let limit = system.cgroup_limits().map_or(u64::MAX, |c| c.free_memory);
+    Some(system.available_memory().min(limit))
+}
+
+/// Free bytes on the disk of a folder that need not exist yet.
+fn free_disk(folder: &Path) -> Option<u64> {
+    let existing = folder.ancestors().find(|f| f.exists());
+    let here = existing.unwrap_or(Path::new("."));
+    fs4::available_space(here).ok()
+}
+
+/// A number with its thousands apart.
+pub(crate) fn grouped(n: u64) -> String {
+    let digits = n.to_string();
+    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
+    for (k, digit) in digits.chars().enumerate() {
+        if k > 0 && (digits.len() - k).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// A size in decimal units.
+pub(crate) fn bytes(n: u64) -> String {
+    let units = ["B", "kB", "MB", "GB", "TB"];
+    let mut size = n as f64;
+    let mut unit = 0;
+    while size >= 999.5 && unit + 1 < units.len() {
+        size /= 1000.0;
+        unit += 1;
+    }
+    if unit == 0 || size >= 99.5 {
+        format!("{size:.0} {}", units[unit])
+    } else {
+        format!("{size:.1} {}", units[unit])
+    }
+}
+
+/// A duration in words.
+pub(crate) fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 1.0 => "under a second".to_owned(),
+        s if s < 100.0 => format!("about {s:.0} s"),
+        s if s < 5400.0 => format!("about {:.0} min", s / 60.0),
+        s => format!("about {:.1} h", s / 3600.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantities_are_readable() {
+        assert_eq!(["0", "999", "1,728", "1,492,128"], [0, 999, 1728, 1_492_128].map(grouped)[..]);
+        let sizes = [12, 999, 1_000, 5_968_512, 123_456_789, 1_530_000_000].map(bytes);
+        assert_eq!(sizes, ["12 B", "999 B", "1.0 kB", "6.0 MB", "123 MB", "1.5 GB"]);
+        let times = [0.1, 7.4, 600.0, 9000.0].map(duration);
+        assert_eq!(times, ["under a second", "about 7 s", "about 10 min", "about 2.5 h"]);
+    }
+
+    #[test]
+    fn impossible_runs_are_refused_with_a_remedy() {
+        let error = Needs::of(1 << 20).check(None).unwrap_err().to_string();
+        assert!(error.contains("1,048,576 patches need 2.2 TB of memory"), "{error}");
+        assert!(error.contains("use fewer patches"), "{error}");
+        assert!(Needs::of(100).check(None).is_ok());
+    }
+}
