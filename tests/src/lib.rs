@@ -1,1 +1,34 @@
+//! What the end-to-end tests share: shipped scenes, reference data, and the two measures of
+//! error that `data/README.md` defines.
 
+mod measure;
+mod reference;
+
+pub use measure::{Errors, picture_errors, radiosity_errors};
+pub use reference::{RadiosityTable, radiance, radiosity_table, regions};
+
+use radiosity::scene::{Scene, load};
+use radiosity::solver::Solution;
+use radiosity::{Pipeline, Silent, Sources};
+use std::path::{Path, PathBuf};
+
+/// A folder or file of the checkout.
+pub fn in_checkout(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
+}
+
+/// A shipped scene.
+pub fn shipped(name: &str) -> Scene {
+    load(&in_checkout(&format!("scenes/{name}.toml"))).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The pipeline of a scene, without a cache.
+pub fn pipeline(scene: &Scene) -> Pipeline<'_> {
+    Pipeline::new(scene, None, &Silent).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The solution of a pipeline.
+pub fn solve(pipeline: &Pipeline<'_>) -> Solution {
+    let solved = pipeline.solution(Sources::Cached);
+    solved.unwrap_or_else(|error| panic!("{error}")).solution
+}

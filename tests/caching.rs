@@ -1,0 +1,302 @@
+//! Nothing is computed twice, and nothing stale or damaged is ever used.
+
+use radiosity::cache::Store;
+use radiosity::geometry::{Camera, DVec3, Divisions};
+use radiosity::scene::{Mode, Scene};
+use radiosity::solver::Solution;
+use radiosity::{Observer, Pipeline, Silent, Solved, Sources, Stage};
+use radiosity_tests::shipped;
+use std::fs;
+use std::path::PathBuf;
+use std::sync::Mutex;
+use tempfile::TempDir;
+
+/// A scene with a cache folder of its own.
+struct Bench {
+    folder: TempDir,
+    scene: Scene,
+}
+
+/// Why form factors and solution were computed; `None` where they were not.
+type Reasons = (Option<String>, Option<String>);
+
+impl Bench {
+    /// With everything cached.
+    fn warm() -> Bench {
+        let mut scene = shipped("cornell");
+        scene.divisions = Divisions::uniform(3);
+        let bench = Bench {
+            folder: TempDir::new().unwrap(),
+            scene,
+        };
+        bench.solve();
+        bench
+    }
+
+    fn store(&self) -> Store {
+        Store::new(self.folder.path())
+    }
+
+    fn solve(&self) -> Solved {
+        let store = self.store();
+        let pipeline = Pipeline::new(&self.scene, Some(&store), &Silent).unwrap();
+        pipeline.solution(Sources::Cached).unwrap()
+    }
+
+    fn reasons(&self) -> Reasons {
+        let solved = self.solve();
+        (solved.form_factors.computed_because, solved.origin.computed_because)
+    }
+
+    /// The reasons after a change of the scene.
+    fn after(change: impl FnOnce(&mut Scene)) -> Reasons {
+        let mut bench = Bench::warm();
+        change(&mut bench.scene);
+        bench.reasons()
+    }
+
+    /// The only cached file of a stage.
+    fn file(&self, stage: &str) -> PathBuf {
+        let start = format!("cornell-{stage}-");
+        let mut files = fs::read_dir(self.folder.path()).unwrap().map(|e| e.unwrap().path());
+        let is_it = |path: &PathBuf| {
+            path.file_name().unwrap().to_str().unwrap().starts_with(&start)
+        };
+        files.find(is_it).unwrap()
+    }
+
+    fn damage(&self, stage: &str, change: impl FnOnce(&mut Vec<u8>)) {
+        let path = self.file(stage);
+        let mut bytes = fs::read(&path).unwrap();
+        change(&mut bytes);
+        fs::write(path, bytes).unwrap();
+    }
+}
+
+fn none() -> Reasons {
+    (None, None)
+}
+
+fn changed_solution() -> Reasons {
+    (None, Some("inputs changed".to_owned()))
+}
+
+fn changed_both() -> Reasons {
+    let changed = Some("inputs changed".to_owned());
+    (changed.clone(), changed)
+}
+
+#[test]
+fn a_cold_run_equals_a_warm_one_byte_for_byte() {
+    let bench = Bench::warm();
+    let render = |cache: Option<&Store>| {
+        let pipeline = Pipeline::new(&bench.scene, cache, &Silent).unwrap();
+        let solved = pipeline.solution(Sources::Cached).unwrap();
+        let pictures = pipeline.pictures(&solved.solution).unwrap();
+        (solved.solution, pictures)
+    };
+    let cold: (Solution, _) = render(None);
+    let warm = render(Some(&bench.store()));
+    assert_eq!(cold, warm);
+    // Solving from cached form factors gives the same bytes too.
+    fs::remove_file(bench.file("solution")).unwrap();
+    let solved = bench.solve();
+    assert_eq!(solved.form_factors.computed_because, None);
+    assert_eq!(solved.solution, cold.0);
+    // And so do files: a second cold run writes the same ones.
+    let other = Bench::warm();
+    for stage in ["form-factors", "solution"] {
+        let [a, b] = [&bench, &other].map(|bench| fs::read(bench.file(stage)).unwrap());
+        assert_eq!(a, b);
+    }
+}
+
+#[test]
+fn the_first_run_computes_and_the_second_does_not() {
+    let bench = Bench::warm();
+    assert_eq!(bench.reasons(), none());
+    bench.store().clean().unwrap();
+    let nothing = Some("nothing cached yet".to_owned());
+    assert_eq!(bench.reasons(), (nothing.clone(), nothing));
+}
+
+#[test]
+fn pictures_depend_on_no_artifact_key() {
+    assert_eq!(Bench::after(|s| s.image.width = 99), none());
+    assert_eq!(Bench::after(|s| s.image.exposure = 2.0), none());
+    assert_eq!(Bench::after(|s| s.image.samples = 1), none());
+    let camera = Camera::new(DVec3::ZERO, DVec3::Z, DVec3::Y, 40.0, 0.0).unwrap();
+    assert_eq!(Bench::after(|s| s.camera = Some(camera)), none());
+}
+
+#[test]
+fn names_depend_on_no_artifact_key() {
+    assert_eq!(Bench::after(|s| s.surfaces[0].name = "elsewhere".to_owned()), none());
+    assert_eq!(Bench::after(|s| s.materials[0].name = "renamed".to_owned()), none());
+}
+
+#[test]
+fn a_changed_reflectance_needs_a_solution() {
+    assert_eq!(Bench::after(|s| s.materials[0].reflectance[1] = 0.5), changed_solution());
+}
+
+#[test]
+fn a_changed_emission_needs_a_solution() {
+    assert_eq!(Bench::after(|s| s.materials[0].emission[1] = 0.5), changed_solution());
+}
+
+#[test]
+fn a_changed_solver_setting_needs_a_solution() {
+    assert_eq!(Bench::after(|s| s.solver.tolerance = 1e-4), changed_solution());
+    assert_eq!(Bench::after(|s| s.solver.max_sweeps = 3), changed_solution());
+}
+
+#[test]
+fn a_changed_shape_needs_everything() {
+    let change = |s: &mut Scene| s.geometry.swap(0, 1);
+    assert_eq!(Bench::after(change), changed_both());
+}
+
+#[test]
+fn a_changed_subdivision_needs_everything() {
+    assert_eq!(Bench::after(|s| s.divisions = Divisions::uniform(2)), changed_both());
+}
+
+#[test]
+fn a_changed_estimator_needs_everything() {
+    assert_eq!(Bench::after(|s| s.form_factors.points = 2), changed_both());
+    assert_eq!(Bench::after(|s| s.form_factors.mode = Mode::MonteCarlo), changed_both());
+}
+
+#[test]
+fn settings_that_the_estimator_ignores_need_nothing() {
+    assert_eq!(Bench::after(|s| s.form_factors.seed = 7), none());
+    assert_eq!(Bench::after(|s| s.form_factors.pairs = Some(7)), none());
+}
+
+#[test]
+fn a_seed_matters_to_monte_carlo() {
+    let mut bench = Bench::warm();
+    bench.scene.form_factors.mode = Mode::MonteCarlo;
+    bench.solve();
+    bench.scene.form_factors.seed = 7;
+    assert_eq!(bench.reasons(), changed_both());
+}
+
+#[test]
+fn changing_back_finds_the_old_files() {
+    let mut bench = Bench::warm();
+    bench.scene.materials[0].reflectance[1] = 0.5;
+    bench.solve();
+    let original = shipped("cornell");
+    bench.scene.materials = original.materials;
+    assert_eq!(bench.reasons(), none());
+}
+
+#[test]
+fn damage_is_noticed_named_and_mended() {
+    type Damage = fn(&mut Vec<u8>);
+    let kinds: [(Damage, &str); 6] = [
+        (|b| b.clear(), "the cached file is not a cache file"),
+        (|b| b.truncate(b.len() - 5), "bytes instead of"),
+        (|b| b.extend([0; 9]), "bytes instead of"),
+        (|b| b[8] += 1, "format version 2"),
+        (|b| b[70] ^= 4, "header is damaged"),
+        (|b| *b.last_mut().unwrap() ^= 1, "data is damaged (block 0)"),
+    ];
+    let bench = Bench::warm();
+    let good = bench.solve().solution;
+    for (damage, reason) in kinds {
+        bench.damage("solution", damage);
+        let solved = bench.solve();
+        let because = solved.origin.computed_because.unwrap();
+        assert!(because.contains(reason), "{because}");
+        assert_eq!(solved.solution, good);
+
+        bench.damage("form-factors", damage);
+        fs::remove_file(bench.file("solution")).unwrap();
+        let solved = bench.solve();
+        let because = solved.form_factors.computed_because.unwrap();
+        assert!(because.contains(reason), "{because}");
+        assert_eq!(solved.solution, good);
+        assert_eq!(bench.reasons(), none(), "what was damaged is mended");
+    }
+}
+
+/// Form factors that another scene left under this one's name and key prefix.
+#[test]
+fn a_file_with_another_key_is_not_believed() {
+    let mut bench = Bench::warm();
+    let (here, good) = (bench.file("form-factors"), bench.solve().solution);
+    bench.scene.form_factors.points = 2;
+    let other = TempDir::new().unwrap();
+    let store = Store::new(other.path());
+    let pipeline = Pipeline::new(&bench.scene, Some(&store), &Silent).unwrap();
+    let impostor = pipeline.form_factors(Sources::Cached).unwrap().origin.file.unwrap();
+    fs::rename(impostor, here).unwrap();
+    fs::remove_file(bench.file("solution")).unwrap();
+    bench.scene.form_factors.points = 3;
+    let solved = bench.solve();
+    let because = solved.form_factors.computed_because;
+    assert_eq!(because.as_deref(), Some("the cached file belongs to another key"));
+    assert_eq!(solved.solution, good);
+}
+
+#[test]
+fn losing_the_form_factors_costs_nothing_while_the_solution_stands() {
+    let bench = Bench::warm();
+    fs::remove_file(bench.file("form-factors")).unwrap();
+    assert_eq!(bench.reasons(), none());
+}
+
+#[test]
+fn recomputing_on_demand_says_so() {
+    let bench = Bench::warm();
+    let store = bench.store();
+    let pipeline = Pipeline::new(&bench.scene, Some(&store), &Silent).unwrap();
+    let solved = pipeline.solution(Sources::Computed).unwrap();
+    assert_eq!(solved.origin.computed_because.as_deref(), Some("asked for"));
+    assert_eq!(solved.form_factors.computed_because, None);
+    let made = pipeline.form_factors(Sources::Computed).unwrap();
+    assert_eq!(made.origin.computed_because.as_deref(), Some("asked for"));
+}
+
+/// Collects notes.
+#[derive(Default)]
+struct Notes(Mutex<Vec<String>>);
+
+impl Observer for Notes {
+    fn begin(&self, _: Stage, _: u64) {}
+    fn advance(&self, _: u64) {}
+    fn end(&self) {}
+    fn note(&self, message: &str) {
+        self.0.lock().unwrap().push(message.to_owned());
+    }
+}
+
+#[test]
+fn a_cache_that_cannot_be_written_costs_a_note() {
+    let bench = Bench::warm();
+    let file = bench.folder.path().join("not-a-folder");
+    fs::write(&file, b"").unwrap();
+    let store = Store::new(&file);
+    let notes = Notes::default();
+    let pipeline = Pipeline::new(&bench.scene, Some(&store), &notes).unwrap();
+    let solved = pipeline.solution(Sources::Cached).unwrap();
+    assert_eq!(solved.solution, bench.solve().solution);
+    let notes = notes.0.into_inner().unwrap();
+    assert!(notes.iter().any(|note| note.contains("not-a-folder")), "{notes:?}");
+}
+
+/// Two at once: one computes, the other waits and takes what the first has made.
+#[test]
+fn two_processes_share_the_work() {
+    let bench = Bench::warm();
+    bench.store().clean().unwrap();
+    let computed = std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..2).map(|_| scope.spawn(|| bench.reasons())).collect();
+        let reasons = threads.into_iter().map(|thread| thread.join().unwrap());
+        reasons.filter(|reasons| *reasons != none()).count()
+    });
+    assert_eq!(computed, 1);
+}

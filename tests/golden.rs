@@ -1,0 +1,102 @@
+//! Small pictures of the shipped scenes, against committed ones.
+//!
+//! `UPDATE_GOLDEN=1 cargo test -p radiosity-tests --test golden` rewrites the committed ones. A
+//! failure leaves `NAME-got.png`, `NAME-expected.png` and `NAME-difference.png` (sixteen times
+//! enlarged differences around grey) in `target/golden/`.
+
+use radiosity::geometry::Divisions;
+use radiosity::renderer::{Picture, PictureFormat, ToneMap, encode};
+use radiosity_tests::{in_checkout, pipeline, shipped, solve};
+use std::path::Path;
+
+/// Levels out of 255. Pictures are the same to the bit on one machine; elsewhere the sines and
+/// powers of the mathematics library may differ in their last digit and flip a rounding.
+const TOLERANCE: i32 = 1;
+
+const GAMMA: f64 = 2.2;
+
+fn check(scene: &str, divisions: u32, points: u32) {
+    let mut scene = shipped(scene);
+    scene.divisions = Divisions::uniform(divisions);
+    scene.form_factors.points = points;
+    (scene.image.width, scene.image.height) = (96, 72);
+    let pipeline = pipeline(&scene);
+    let pictures = pipeline.pictures(&solve(&pipeline)).unwrap();
+    let tone = ToneMap {
+        exposure: scene.image.exposure,
+        gamma: GAMMA,
+    };
+    compare(&format!("{}-constant", scene.name), &tone.apply(&pictures.constant));
+    compare(&format!("{}-smooth", scene.name), &tone.apply(&pictures.smooth));
+}
+
+fn compare(name: &str, got: &Picture) {
+    let path = in_checkout("tests/golden").join(format!("{name}.png"));
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
+        save(&path, got);
+        return;
+    }
+    let expected = load(&path);
+    let differences = || {
+        let pairs = got.bytes.iter().zip(&expected.bytes);
+        pairs.map(|(&got, &expected)| i32::from(got) - i32::from(expected))
+    };
+    let same_size = (got.width, got.height) == (expected.width, expected.height);
+    let worst = differences().map(i32::abs).max().unwrap_or(0);
+    if same_size && worst <= TOLERANCE {
+        return;
+    }
+    let folder = in_checkout("target/golden");
+    std::fs::create_dir_all(&folder).unwrap();
+    let enlarged = |difference: i32| (128 + 16 * difference).clamp(0, 255) as u8;
+    let difference = Picture {
+        bytes: differences().map(enlarged).collect(),
+        ..expected.clone()
+    };
+    for (kind, picture) in [("got", got), ("expected", &expected), ("difference", &difference)] {
+        save(&folder.join(format!("{name}-{kind}.png")), picture);
+    }
+    panic!("{name} differs by {worst} levels: see {}", folder.display());
+}
+
+fn save(path: &Path, picture: &Picture) {
+    std::fs::write(path, encode(picture, PictureFormat::Png { gamma: GAMMA })).unwrap();
+}
+
+fn load(path: &Path) -> Picture {
+    let file = std::fs::File::open(path)
+        .unwrap_or_else(|error| panic!("{}: {error}; see the head of this file", path.display()));
+    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut bytes).unwrap();
+    Picture {
+        width: info.width,
+        height: info.height,
+        bytes,
+    }
+}
+
+#[test]
+fn cornell() {
+    check("cornell", 6, 2);
+}
+
+#[test]
+fn cornell_triangles() {
+    check("cornell-triangles", 4, 2);
+}
+
+#[test]
+fn cornell_closed() {
+    check("cornell-closed", 6, 2);
+}
+
+#[test]
+fn furnace() {
+    check("furnace", 4, 2);
+}
+
+#[test]
+fn knot() {
+    check("knot", 4, 1);
+}
