@@ -45,7 +45,10 @@ impl Bench {
 
     fn reasons(&self) -> Reasons {
         let solved = self.solve();
-        (solved.form_factors.computed_because, solved.origin.computed_because)
+        (
+            solved.form_factors.computed_because,
+            solved.origin.computed_because,
+        )
     }
 
     /// The reasons after a change of the scene.
@@ -58,9 +61,15 @@ impl Bench {
     /// The only cached file of a stage.
     fn file(&self, stage: &str) -> PathBuf {
         let start = format!("cornell-{stage}-");
-        let mut files = fs::read_dir(self.folder.path()).unwrap().map(|e| e.unwrap().path());
+        let mut files = fs::read_dir(self.folder.path())
+            .unwrap()
+            .map(|e| e.unwrap().path());
         let is_it = |path: &PathBuf| {
-            path.file_name().unwrap().to_str().unwrap().starts_with(&start)
+            path.file_name()
+                .unwrap()
+                .to_str()
+                .unwrap()
+                .starts_with(&start)
         };
         files.find(is_it).unwrap()
     }
@@ -131,24 +140,42 @@ fn pictures_depend_on_no_artifact_key() {
 
 #[test]
 fn names_depend_on_no_artifact_key() {
-    assert_eq!(Bench::after(|s| s.surfaces[0].name = "elsewhere".to_owned()), none());
-    assert_eq!(Bench::after(|s| s.materials[0].name = "renamed".to_owned()), none());
+    assert_eq!(
+        Bench::after(|s| s.surfaces[0].name = "elsewhere".to_owned()),
+        none()
+    );
+    assert_eq!(
+        Bench::after(|s| s.materials[0].name = "renamed".to_owned()),
+        none()
+    );
 }
 
 #[test]
 fn a_changed_reflectance_needs_a_solution() {
-    assert_eq!(Bench::after(|s| s.materials[0].reflectance[1] = 0.5), changed_solution());
+    assert_eq!(
+        Bench::after(|s| s.materials[0].reflectance[1] = 0.5),
+        changed_solution()
+    );
 }
 
 #[test]
 fn a_changed_emission_needs_a_solution() {
-    assert_eq!(Bench::after(|s| s.materials[0].emission[1] = 0.5), changed_solution());
+    assert_eq!(
+        Bench::after(|s| s.materials[0].emission[1] = 0.5),
+        changed_solution()
+    );
 }
 
 #[test]
 fn a_changed_solver_setting_needs_a_solution() {
-    assert_eq!(Bench::after(|s| s.solver.tolerance = 1e-4), changed_solution());
-    assert_eq!(Bench::after(|s| s.solver.max_sweeps = 3), changed_solution());
+    assert_eq!(
+        Bench::after(|s| s.solver.tolerance = 1e-4),
+        changed_solution()
+    );
+    assert_eq!(
+        Bench::after(|s| s.solver.max_sweeps = 3),
+        changed_solution()
+    );
 }
 
 #[test]
@@ -159,13 +186,19 @@ fn a_changed_shape_needs_everything() {
 
 #[test]
 fn a_changed_subdivision_needs_everything() {
-    assert_eq!(Bench::after(|s| s.divisions = Divisions::uniform(2)), changed_both());
+    assert_eq!(
+        Bench::after(|s| s.divisions = Divisions::uniform(2)),
+        changed_both()
+    );
 }
 
 #[test]
 fn a_changed_estimator_needs_everything() {
     assert_eq!(Bench::after(|s| s.form_factors.points = 2), changed_both());
-    assert_eq!(Bench::after(|s| s.form_factors.mode = Mode::MonteCarlo), changed_both());
+    assert_eq!(
+        Bench::after(|s| s.form_factors.mode = Mode::MonteCarlo),
+        changed_both()
+    );
 }
 
 #[test]
@@ -232,13 +265,21 @@ fn a_file_with_another_key_is_not_believed() {
     let other = TempDir::new().unwrap();
     let store = Store::new(other.path());
     let pipeline = Pipeline::new(&bench.scene, Some(&store), &Silent).unwrap();
-    let impostor = pipeline.form_factors(Sources::Cached).unwrap().origin.file.unwrap();
+    let impostor = pipeline
+        .form_factors(Sources::Cached)
+        .unwrap()
+        .origin
+        .file
+        .unwrap();
     fs::rename(impostor, here).unwrap();
     fs::remove_file(bench.file("solution")).unwrap();
     bench.scene.form_factors.points = 3;
     let solved = bench.solve();
     let because = solved.form_factors.computed_because;
-    assert_eq!(because.as_deref(), Some("the cached file belongs to another key"));
+    assert_eq!(
+        because.as_deref(),
+        Some("the cached file belongs to another key")
+    );
     assert_eq!(solved.solution, good);
 }
 
@@ -285,7 +326,10 @@ fn a_cache_that_cannot_be_written_costs_a_note() {
     let solved = pipeline.solution(Sources::Cached).unwrap();
     assert_eq!(solved.solution, bench.solve().solution);
     let notes = notes.0.into_inner().unwrap();
-    assert!(notes.iter().any(|note| note.contains("not-a-folder")), "{notes:?}");
+    assert!(
+        notes.iter().any(|note| note.contains("not-a-folder")),
+        "{notes:?}"
+    );
 }
 
 /// Two at once: one computes, the other waits and takes what the first has made.

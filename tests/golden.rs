@@ -26,8 +26,14 @@ fn check(scene: &str, divisions: u32, points: u32) {
         exposure: scene.image.exposure,
         gamma: GAMMA,
     };
-    compare(&format!("{}-constant", scene.name), &tone.apply(&pictures.constant));
-    compare(&format!("{}-smooth", scene.name), &tone.apply(&pictures.smooth));
+    compare(
+        &format!("{}-constant", scene.name),
+        &tone.apply(&pictures.constant),
+    );
+    compare(
+        &format!("{}-smooth", scene.name),
+        &tone.apply(&pictures.smooth),
+    );
 }
 
 fn compare(name: &str, got: &Picture) {
@@ -53,7 +59,11 @@ fn compare(name: &str, got: &Picture) {
         bytes: differences().map(enlarged).collect(),
         ..expected.clone()
     };
-    for (kind, picture) in [("got", got), ("expected", &expected), ("difference", &difference)] {
+    for (kind, picture) in [
+        ("got", got),
+        ("expected", &expected),
+        ("difference", &difference),
+    ] {
         save(&folder.join(format!("{name}-{kind}.png")), picture);
     }
     panic!("{name} differs by {worst} levels: see {}", folder.display());
@@ -66,7 +76,9 @@ fn save(path: &Path, picture: &Picture) {
 fn load(path: &Path) -> Picture {
     let file = std::fs::File::open(path)
         .unwrap_or_else(|error| panic!("{}: {error}; see the head of this file", path.display()));
-    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
+    let mut reader = png::Decoder::new(std::io::BufReader::new(file))
+        .read_info()
+        .unwrap();
     let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut bytes).unwrap();
     Picture {

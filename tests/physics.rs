@@ -34,15 +34,26 @@ fn rows_close_up_to_the_known_error() {
     let scene = shipped("cornell-closed");
     let pipeline = pipeline(&scene);
     let made = pipeline.form_factors(Sources::Cached).unwrap();
-    let rows = pipeline.mesh().patches.iter().zip(&made.form_factors.rows).enumerate();
+    let rows = pipeline
+        .mesh()
+        .patches
+        .iter()
+        .zip(&made.form_factors.rows)
+        .enumerate();
     let errors: Vec<f64> = rows
         .filter(|(index, (patch, _))| !sees_backs(pipeline.surface_name(*index), patch))
         .map(|(_, (_, row))| row.fronts - 1.0)
         .collect();
     let mean = errors.iter().map(|e| e.abs()).sum::<f64>() / errors.len() as f64;
     let worst = errors.iter().map(|e| e.abs()).fold(0.0, f64::max);
-    println!("{} rows: |row sum - 1| {mean:.2e} on average, {worst:.2} at worst", errors.len());
-    println!("{} rows over 1.001", errors.iter().filter(|&&e| e > 1e-3).count());
+    println!(
+        "{} rows: |row sum - 1| {mean:.2e} on average, {worst:.2} at worst",
+        errors.len()
+    );
+    println!(
+        "{} rows over 1.001",
+        errors.iter().filter(|&&e| e > 1e-3).count()
+    );
     assert!((1.2e-2..1.4e-2).contains(&mean));
     assert!((0.66..0.68).contains(&worst));
 }
@@ -90,7 +101,11 @@ fn black_rooms_show_their_lamps_alone() {
     }
     let pipeline = pipeline(&scene);
     for (index, b) in solve(&pipeline).radiosity.into_iter().enumerate() {
-        let emitted = if pipeline.surface_name(index) == "light" { 12.0 } else { 0.0 };
+        let emitted = if pipeline.surface_name(index) == "light" {
+            12.0
+        } else {
+            0.0
+        };
         assert_eq!(b, [emitted; 3]);
     }
 }
@@ -116,7 +131,10 @@ fn power_is_accounted_for() {
         let report = solve(&pipeline(&scene)).report;
         assert!(report.converged, "{name}");
         // The residual, amplified at most by 1 / (1 - 0.8 * 1.2).
-        assert!(report.energy.imbalance() < 25.0 * scene.solver.tolerance, "{name}");
+        assert!(
+            report.energy.imbalance() < 25.0 * scene.solver.tolerance,
+            "{name}"
+        );
     }
     let lamp = 12.0 * 400.0;
     let emitted = solve(&pipeline(&coarse("cornell"))).report.energy.emitted;
@@ -138,5 +156,8 @@ fn impossible_reflectances_name_their_surfaces() {
     let rows = pipeline.form_factors(Sources::Cached).unwrap().rows;
     let worst = pipeline.surface_name(rows.largest.1 as usize);
     let text = error.to_string();
-    assert!(text.contains(&format!("`{worst}`")) && text.contains("help"), "{text}");
+    assert!(
+        text.contains(&format!("`{worst}`")) && text.contains("help"),
+        "{text}"
+    );
 }

@@ -22,9 +22,18 @@ fn the_course_is_reproduced() {
     let away_from_edges = |image| picture_errors(&reference, image, &regions, |r| r <= 2);
     let constant = away_from_edges(&pictures.constant);
     let smooth = away_from_edges(&pictures.smooth);
-    println!("constant picture: RMSE {:.3} %, bias {:+.3} %", constant.rmse, constant.bias);
-    println!("smooth picture: RMSE {:.3} %, bias {:+.3} %", smooth.rmse, smooth.bias);
-    assert!((constant.rmse - 9.0).abs() < 0.1, "constant picture {constant:?}");
+    println!(
+        "constant picture: RMSE {:.3} %, bias {:+.3} %",
+        constant.rmse, constant.bias
+    );
+    println!(
+        "smooth picture: RMSE {:.3} %, bias {:+.3} %",
+        smooth.rmse, smooth.bias
+    );
+    assert!(
+        (constant.rmse - 9.0).abs() < 0.1,
+        "constant picture {constant:?}"
+    );
     assert!((smooth.rmse - 5.9).abs() < 0.1, "smooth picture {smooth:?}");
 }
 
@@ -39,7 +48,10 @@ fn triangles_are_as_good_as_rectangles() {
     let (reference, regions) = (radiance(), regions());
     let away_from_edges = |image| picture_errors(&reference, image, &regions, |r| r <= 2);
     let smooth = away_from_edges(&pictures.smooth);
-    println!("smooth picture of triangles: RMSE {:.3} %, bias {:+.3} %", smooth.rmse, smooth.bias);
+    println!(
+        "smooth picture of triangles: RMSE {:.3} %, bias {:+.3} %",
+        smooth.rmse, smooth.bias
+    );
     assert!(smooth.rmse < 5.9, "{smooth:?}");
     assert!(away_from_edges(&pictures.constant).rmse > 8.0);
 }

@@ -34,7 +34,11 @@ pub fn radiance() -> Image {
             image.pixels[index] = [r, g, b];
         },
     );
-    image.expect("the picture is well-formed").layer_data.channel_data.pixels
+    image
+        .expect("the picture is well-formed")
+        .layer_data
+        .channel_data
+        .pixels
 }
 
 /// The region of each pixel of that picture.
@@ -47,6 +51,9 @@ pub fn regions() -> Vec<u8> {
     let size = reader.output_buffer_size().expect("a known size");
     let mut pixels = vec![0; size];
     let info = reader.next_frame(&mut pixels).expect("a whole PNG");
-    assert_eq!((info.color_type, info.bit_depth), (png::ColorType::Grayscale, png::BitDepth::Eight));
+    assert_eq!(
+        (info.color_type, info.bit_depth),
+        (png::ColorType::Grayscale, png::BitDepth::Eight)
+    );
     pixels
 }

@@ -7,15 +7,40 @@ use std::time::Instant;
 /// What a change must pass, in the order of what fails fastest.
 const STEPS: [(&str, &[&str]); 5] = [
     ("format", &["fmt", "--all", "--check"]),
-    ("lints", &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]),
-    ("docs", &["doc", "--workspace", "--no-deps", "--document-private-items"]),
+    (
+        "lints",
+        &[
+            "clippy",
+            "--workspace",
+            "--all-targets",
+            "--",
+            "-D",
+            "warnings",
+        ],
+    ),
+    (
+        "docs",
+        &[
+            "doc",
+            "--workspace",
+            "--no-deps",
+            "--document-private-items",
+        ],
+    ),
     ("tests", &["test", "--workspace"]),
-    ("render", &["xtask", "render", "--no-cache", "--output", "target/ci"]),
+    (
+        "render",
+        &["xtask", "render", "--no-cache", "--output", "target/ci"],
+    ),
 ];
 
 /// Runs all steps and stops at the first that fails.
 pub(crate) fn run(root: &Path) -> ExitCode {
-    let folder = if root.as_os_str().is_empty() { Path::new(".") } else { root };
+    let folder = if root.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        root
+    };
     for (name, arguments) in STEPS {
         let start = Instant::now();
         eprintln!("ci: {name}: cargo {}", arguments.join(" "));
@@ -28,7 +53,10 @@ pub(crate) fn run(root: &Path) -> ExitCode {
             eprintln!("ci: {name} failed");
             return ExitCode::FAILURE;
         }
-        eprintln!("ci: {name} passed in {:.0} s", start.elapsed().as_secs_f64());
+        eprintln!(
+            "ci: {name} passed in {:.0} s",
+            start.elapsed().as_secs_f64()
+        );
     }
     ExitCode::SUCCESS
 }

@@ -33,9 +33,8 @@ fn obj() -> String {
         let (center, normal, binormal) = frame(t);
         for side in 0..SIDES {
             let (sin, cos) = angle(side, SIDES).sin_cos();
-            let [x, y, z]: Vector = std::array::from_fn(|k| {
-                center[k] + RADIUS * (cos * normal[k] + sin * binormal[k])
-            });
+            let [x, y, z]: Vector =
+                std::array::from_fn(|k| center[k] + RADIUS * (cos * normal[k] + sin * binormal[k]));
             writeln!(text, "v {x:.6} {y:.6} {z:.6}").expect("strings take all text");
         }
     }

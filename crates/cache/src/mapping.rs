@@ -11,7 +11,10 @@ pub struct MappedValues {
 }
 
 /// Maps a file, read-only.
-#[allow(unsafe_code, reason = "a map is sound only while nobody changes the file")]
+#[allow(
+    unsafe_code,
+    reason = "a map is sound only while nobody changes the file"
+)]
 pub(crate) fn map(file: &File) -> std::io::Result<memmap2::Mmap> {
     // SAFETY: cache files are never changed in place. A new one is written under another name
     // and renamed over the old one, which stays alive for those who have mapped it.

@@ -97,7 +97,8 @@ impl Store {
     pub fn path(&self, id: &Id<'_>) -> PathBuf {
         let Id { scene, stage, key } = id;
         let prefix = key.prefix();
-        self.folder.join(format!("{scene}-{stage}-{prefix}.{EXTENSION}"))
+        self.folder
+            .join(format!("{scene}-{stage}-{prefix}.{EXTENSION}"))
     }
 
     /// Takes exclusive use of an artifact; calls `on_wait` once if another process has it.

@@ -31,7 +31,9 @@ fn written() -> (TempDir, Store) {
 
 /// Reads facts and values; the reason for a miss as text.
 fn read(store: &Store) -> Result<(Facts, Vec<f32>), String> {
-    let artifact = store.read::<Facts>(&id(1)).map_err(|miss| miss.to_string())?;
+    let artifact = store
+        .read::<Facts>(&id(1))
+        .map_err(|miss| miss.to_string())?;
     let (facts, values) = artifact.into_values().map_err(|miss| miss.to_string())?;
     Ok((facts, values.as_ref().to_vec()))
 }
@@ -78,7 +80,10 @@ fn the_layout_is_one_bincode_value() {
     assert_eq!(consumed, bytes.len());
     assert_eq!(file.1.0, "form-factors");
     assert_eq!(file.1.1, id(1).key.bytes());
-    assert_eq!(file.1.2, bincode::serde::encode_to_vec(&facts, config).unwrap());
+    assert_eq!(
+        file.1.2,
+        bincode::serde::encode_to_vec(&facts, config).unwrap()
+    );
     assert_eq!(file.3, values);
     assert_eq!((bytes.len() - 4 * values.len()) % ALIGNMENT, 0);
 }
@@ -99,20 +104,35 @@ fn keys_are_stable() {
 #[test]
 fn absence_tells_new_from_changed() {
     let (_folder, store) = written();
-    assert!(matches!(store.read::<Facts>(&id(2)), Err(Miss::InputsChanged)));
-    let other = Id { scene: "elsewhere", ..id(1) };
+    assert!(matches!(
+        store.read::<Facts>(&id(2)),
+        Err(Miss::InputsChanged)
+    ));
+    let other = Id {
+        scene: "elsewhere",
+        ..id(1)
+    };
     assert!(matches!(store.read::<Facts>(&other), Err(Miss::Nothing)));
 }
 
 #[test]
 fn each_kind_of_damage_is_named() {
-    assert_eq!(miss_after(|b| b[0] ^= 1), "the cached file is not a cache file");
-    assert_eq!(miss_after(Vec::clear), "the cached file is not a cache file");
+    assert_eq!(
+        miss_after(|b| b[0] ^= 1),
+        "the cached file is not a cache file"
+    );
+    assert_eq!(
+        miss_after(Vec::clear),
+        "the cached file is not a cache file"
+    );
     assert_eq!(
         miss_after(|b| b[8] = 9),
         "the cached file has format version 9, this program writes 1"
     );
-    assert_eq!(miss_after(|b| b[60] ^= 1), "the cached file's header is damaged");
+    assert_eq!(
+        miss_after(|b| b[60] ^= 1),
+        "the cached file's header is damaged"
+    );
     assert_eq!(
         miss_after(|b| b[12..20].copy_from_slice(&u64::MAX.to_le_bytes())),
         "the cached file's header is damaged"
@@ -130,7 +150,9 @@ fn each_kind_of_damage_is_named() {
 fn the_damaged_block_is_named() {
     let folder = TempDir::new().unwrap();
     let store = Store::new(folder.path());
-    store.write(&id(1), &(), &vec![1.0; 3 * BLOCK_VALUES]).unwrap();
+    store
+        .write(&id(1), &(), &vec![1.0; 3 * BLOCK_VALUES])
+        .unwrap();
     let path = store.path(&id(1));
     let mut bytes = fs::read(&path).unwrap();
     let in_second_block = bytes.len() - 6 * BLOCK_VALUES;

@@ -16,11 +16,7 @@ const BLOCK_ROWS: usize = 8;
 
 /// Estimates all form factors of a mesh. `progress` is told how many further pairs are done,
 /// from any thread.
-pub fn estimate(
-    mesh: &Mesh,
-    estimator: Estimator,
-    progress: &(dyn Fn(u64) + Sync),
-) -> FormFactors {
+pub fn estimate(mesh: &Mesh, estimator: Estimator, progress: &(dyn Fn(u64) + Sync)) -> FormFactors {
     let size = mesh.patches.len();
     let stage = Stage::new(mesh, estimator);
     let mut values = vec![0.0; packed_len(size)];
@@ -120,9 +116,7 @@ impl<'a> Stage<'a> {
                         (&self.points[j], patch_j.normal),
                         visible,
                     ),
-                    Some(monte_carlo) => {
-                        monte_carlo.estimate((i, patch_i), (j, patch_j), visible)
-                    }
+                    Some(monte_carlo) => monte_carlo.estimate((i, patch_i), (j, patch_j), visible),
                 };
                 row[j] = (exchange * self.scale) as f32;
             }

@@ -40,9 +40,8 @@ pub(crate) fn jittered(polygon: &Polygon, n: u32, stratum: u32, uniform: DVec2) 
 fn in_stratum(polygon: &Polygon, n: u32, stratum: u32, offset: DVec2) -> Sample {
     let (i, j) = (stratum / n, stratum % n);
     let scale = 1.0 / f64::from(n);
-    let at = |i: u32, j: u32, offset: DVec2| {
-        scale * (DVec2::new(f64::from(i), f64::from(j)) + offset)
-    };
+    let at =
+        |i: u32, j: u32, offset: DVec2| scale * (DVec2::new(f64::from(i), f64::from(j)) + offset);
     if !polygon.is_triangle() {
         let uv = at(i, j, offset);
         return Sample {
@@ -72,7 +71,12 @@ mod tests {
     }
 
     fn trapezoid() -> Polygon {
-        let corners = [DVec3::ZERO, 4.0 * DVec3::X, DVec3::new(2.0, 2.0, 0.0), 2.0 * DVec3::Y];
+        let corners = [
+            DVec3::ZERO,
+            4.0 * DVec3::X,
+            DVec3::new(2.0, 2.0, 0.0),
+            2.0 * DVec3::Y,
+        ];
         Polygon::quad(corners)
     }
 

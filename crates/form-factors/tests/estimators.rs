@@ -30,7 +30,11 @@ fn square(center: [f64; 2], edge: f64, z: f64, up: bool) -> Shape {
     let corner = DVec3::new(center[0] - h, center[1] - h, z);
     let (x, y) = (edge * DVec3::X, edge * DVec3::Y);
     let (edge_a, edge_b) = if up { (x, y) } else { (y, x) };
-    Shape::Parallelogram { corner, edge_a, edge_b }
+    Shape::Parallelogram {
+        corner,
+        edge_a,
+        edge_b,
+    }
 }
 
 /// Two unit squares that share the edge along y, opened by an angle.
@@ -42,14 +46,20 @@ fn hinged(degrees: f64) -> [Shape; 2] {
         edge_a,
         edge_b,
     };
-    [parallelogram(DVec3::X, DVec3::Y), parallelogram(DVec3::Y, leaf)]
+    [
+        parallelogram(DVec3::X, DVec3::Y),
+        parallelogram(DVec3::Y, leaf),
+    ]
 }
 
 /// Closed forms (Howell, "A Catalog of Radiation Heat Transfer Configuration Factors", C-11 and
 /// C-13; the last digits are those of the published tables).
 fn separate_pairs() -> [([Shape; 2], f64, u32); 4] {
     let facing = |edge: f64, distance: f64| {
-        [square([0.0; 2], 1.0, 0.0, true), square([0.0; 2], edge, distance, false)]
+        [
+            square([0.0; 2], 1.0, 0.0, true),
+            square([0.0; 2], edge, distance, false),
+        ]
     };
     [
         (facing(1.0, 1.0), 0.199_824_896, 8),
@@ -72,7 +82,10 @@ fn the_regular_rule_converges_to_closed_forms() {
         let extrapolated = (4.0 * fine - coarse) / 3.0;
         let gap = mesh.patches[1].centroid.z;
         let bound = 20.0 * (f64::from(n) * gap.min(1.0)).powi(-4) * exact;
-        assert!((extrapolated - exact).abs() < bound, "{exact}: {extrapolated}");
+        assert!(
+            (extrapolated - exact).abs() < bound,
+            "{exact}: {extrapolated}"
+        );
     }
 }
 
@@ -92,13 +105,26 @@ fn monte_carlo_is_unbiased() {
         let mesh = mesh_of(&pair, 1);
         for (points, pairs) in [(3, 9), (2, 7), (1, 16)] {
             let runs = 400;
-            let sample = |seed| run(&mesh, Estimator::MonteCarlo { points, pairs, seed }).factor(0, 1);
+            let sample = |seed| {
+                run(
+                    &mesh,
+                    Estimator::MonteCarlo {
+                        points,
+                        pairs,
+                        seed,
+                    },
+                )
+                .factor(0, 1)
+            };
             let samples: Vec<f64> = (0..runs).map(sample).collect();
             let n = runs as f64;
             let mean = samples.iter().sum::<f64>() / n;
             let variance = samples.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n - 1.0);
             let standard_error = (variance / n).sqrt();
-            assert!((mean - exact).abs() < 4.0 * standard_error, "{exact}: {mean}");
+            assert!(
+                (mean - exact).abs() < 4.0 * standard_error,
+                "{exact}: {mean}"
+            );
             assert!(standard_error < 0.2 * exact);
         }
     }
@@ -109,14 +135,23 @@ fn monte_carlo_is_unbiased() {
 #[test]
 fn a_rectangle_is_its_two_triangles() {
     let light = square([0.3, 0.2], 0.8, 1.0, false);
-    let [a, b, c, d] = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]
-        .map(|[x, y]| DVec3::new(x, y, 0.0));
+    let [a, b, c, d] =
+        [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]].map(|[x, y]| DVec3::new(x, y, 0.0));
     let whole = mesh_of(&[light.clone(), Shape::Quad([a, b, c, d])], 1);
-    let halves = mesh_of(&[light, Shape::Triangle([a, b, c]), Shape::Triangle([c, d, a])], 1);
+    let halves = mesh_of(
+        &[
+            light,
+            Shape::Triangle([a, b, c]),
+            Shape::Triangle([c, d, a]),
+        ],
+        1,
+    );
     let extrapolated = |mesh: &Mesh| {
         let all = |n| {
             let factors = regular(mesh, n);
-            (1..mesh.patches.len()).map(|j| factors.factor(0, j)).sum::<f64>()
+            (1..mesh.patches.len())
+                .map(|j| factors.factor(0, j))
+                .sum::<f64>()
         };
         (4.0 * all(24) - all(12)) / 3.0
     };
@@ -126,38 +161,74 @@ fn a_rectangle_is_its_two_triangles() {
 
 #[test]
 fn what_stands_between_blocks() {
-    let (floor, light) = (square([0.0; 2], 1.0, 0.0, true), square([0.0; 2], 1.0, 2.0, false));
+    let (floor, light) = (
+        square([0.0; 2], 1.0, 0.0, true),
+        square([0.0; 2], 1.0, 2.0, false),
+    );
     let open = regular(&mesh_of(&[floor.clone(), light.clone()], 1), 4).factor(0, 1);
     let with = |blocker: Shape| {
         let mesh = mesh_of(&[floor.clone(), light.clone(), blocker], 1);
         regular(&mesh, 4).factor(0, 1)
     };
     for up in [true, false] {
-        assert_eq!(with(square([0.0; 2], 3.0, 1.0, up)), 0.0, "both sides block");
+        assert_eq!(
+            with(square([0.0; 2], 3.0, 1.0, up)),
+            0.0,
+            "both sides block"
+        );
     }
     // What one half of the middle plane lets through, the other half blocks.
     let [left, right] = [-5.01, 4.99].map(|x| with(square([x, 0.0], 10.0, 1.0, true)));
     assert!(left > 0.0 && right > 0.0);
-    assert!((left + right - open).abs() < 1e-6 * open, "{left} + {right} is not {open}");
+    assert!(
+        (left + right - open).abs() < 1e-6 * open,
+        "{left} + {right} is not {open}"
+    );
     // The total area is another one, and with it the rounding of storage.
     let beyond = with(square([0.0; 2], 3.0, 2.5, true));
-    assert!((beyond - open).abs() < 1.3e-7 * open, "behind is not between");
+    assert!(
+        (beyond - open).abs() < 1.3e-7 * open,
+        "behind is not between"
+    );
 }
 
 #[test]
 fn only_fronts_exchange() {
     let squares = |up0, up1| {
-        let pair = [square([0.0; 2], 1.0, 0.0, up0), square([0.0; 2], 1.0, 1.0, up1)];
-        regular(&mesh_of(&pair, 2), 2).exchange.values().iter().copied().fold(0.0, f32::max)
+        let pair = [
+            square([0.0; 2], 1.0, 0.0, up0),
+            square([0.0; 2], 1.0, 1.0, up1),
+        ];
+        regular(&mesh_of(&pair, 2), 2)
+            .exchange
+            .values()
+            .iter()
+            .copied()
+            .fold(0.0, f32::max)
     };
     assert!(squares(true, false) > 0.0);
-    assert_eq!([squares(true, true), squares(false, true), squares(false, false)], [0.0; 3]);
+    assert_eq!(
+        [
+            squares(true, true),
+            squares(false, true),
+            squares(false, false)
+        ],
+        [0.0; 3]
+    );
 }
 
 #[test]
 fn faces_of_one_mesh_see_each_other_and_a_flat_face_does_not_see_itself() {
-    let positions = [[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 1.0],
-        [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]].map(DVec3::from).to_vec();
+    let positions = [
+        [0.0, 0.0, 1.0],
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 1.0],
+        [0.0, 1.0, 0.0],
+        [1.0, 1.0, 0.0],
+    ]
+    .map(DVec3::from)
+    .to_vec();
     let faces = vec![vec![0, 1, 4, 3], vec![1, 2, 5, 4]];
     let surface = Surface {
         shape: Shape::Mesh(PolygonMesh { positions, faces }),
@@ -255,7 +326,10 @@ fn culling_changes_nothing() {
         for j in 0..mesh.patches.len() {
             let (found, expected) = (factors.factor(i, j), oracle(&mesh, n, i, j));
             // Storage in f32 rounds by 6e-8.
-            assert!((found - expected).abs() <= 1.3e-7 * expected, "{i} {j}: {found} {expected}");
+            assert!(
+                (found - expected).abs() <= 1.3e-7 * expected,
+                "{i} {j}: {found} {expected}"
+            );
             blocked += usize::from(expected == 0.0);
         }
     }
@@ -288,10 +362,17 @@ fn row_sums_are_sums_of_rows() {
 #[test]
 fn thread_counts_leave_no_trace() {
     let mesh = mesh_of(&room(), 5);
-    let monte_carlo = Estimator::MonteCarlo { points: 2, pairs: 6, seed: 3 };
+    let monte_carlo = Estimator::MonteCarlo {
+        points: 2,
+        pairs: 6,
+        seed: 3,
+    };
     for estimator in [Estimator::Regular { points: 2 }, monte_carlo] {
         let with = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .unwrap();
             pool.install(|| run(&mesh, estimator).exchange.values().to_vec())
         };
         let one = with(1);
@@ -304,7 +385,11 @@ fn thread_counts_leave_no_trace() {
 fn seeds_matter_to_monte_carlo_alone() {
     let mesh = mesh_of(&room(), 2);
     let with = |seed| {
-        let estimator = Estimator::MonteCarlo { points: 2, pairs: 4, seed };
+        let estimator = Estimator::MonteCarlo {
+            points: 2,
+            pairs: 4,
+            seed,
+        };
         run(&mesh, estimator).exchange.values().to_vec()
     };
     assert_eq!(with(1), with(1));

@@ -65,7 +65,10 @@ impl Bvh {
         }
         let left_count = self.partition(boxes, first, count, depth);
         let left = self.nodes.len();
-        let children = [(first, left_count), (first + left_count, count - left_count)];
+        let children = [
+            (first, left_count),
+            (first + left_count, count - left_count),
+        ];
         for (first, count) in children {
             let child = self.node(boxes, first, count);
             self.nodes.push(child);

@@ -72,7 +72,9 @@ fn inverse_bilinear(polygon: &Polygon, normal: DVec3, point: DVec3) -> DVec2 {
     let quadratic = cross(twist, along_v);
     let linear = cross(along_u, along_v) + cross(p, twist);
     let constant = cross(p, along_u);
-    let root = (linear * linear - 4.0 * quadratic * constant).max(0.0).sqrt();
+    let root = (linear * linear - 4.0 * quadratic * constant)
+        .max(0.0)
+        .sqrt();
     let v = (-2.0 * constant / (linear + root)).clamp(0.0, 1.0);
     let direction = along_u + v * twist;
     let u = (p - v * along_v).dot(direction) / direction.length_squared();

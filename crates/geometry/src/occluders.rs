@@ -113,7 +113,13 @@ impl Occluders {
     ///
     /// Name the face that the ray leaves as `except`: rounding may put the origin on either
     /// side of it. Of two hits at the same parameter the face that comes first wins.
-    pub fn closest_hit(&self, ray: &Ray, from: f64, to: f64, except: Option<FaceId>) -> Option<Hit> {
+    pub fn closest_hit(
+        &self,
+        ray: &Ray,
+        from: f64,
+        to: f64,
+        except: Option<FaceId>,
+    ) -> Option<Hit> {
         let mut closest: Option<Hit> = None;
         self.tree.along(ray, from, to, |item, limit| {
             let face = FaceId(item);
@@ -147,11 +153,8 @@ impl Occluders {
         let face = &self.faces[id.index()];
         let approach = face.normal.dot(ray.direction);
         let t = -face.height(ray.origin) / approach;
-        // A ray parallel to the plane gives an infinite or NaN parameter, which fails here.
-        if !(t >= from && t <= to) || !ray.pierces(&face.corners) {
-            return None;
-        }
-        Some(Hit {
+        // A ray parallel to the plane gives an infinite or NaN parameter, which no range holds.
+        ((from..=to).contains(&t) && ray.pierces(&face.corners)).then_some(Hit {
             t,
             face: id,
             front: approach < 0.0,

@@ -116,11 +116,12 @@ pub(crate) fn check_triangle([a, b, c]: [DVec3; 3]) -> Result<(), ShapeError> {
     let (ab, ac) = (b - a, c - a);
     let longest = ab.length().max(ac.length()).max((c - b).length());
     let height = ab.cross(ac).length() / longest;
-    // NaN (all corners equal) must fail too, hence the negated comparison.
-    if !(height > PARALLEL * longest) {
-        return Err(ShapeError::NoArea);
+    // The height is NaN where all corners are equal; no comparison holds for it.
+    if height > PARALLEL * longest {
+        Ok(())
+    } else {
+        Err(ShapeError::NoArea)
     }
-    Ok(())
 }
 
 pub(crate) fn check_quad(corners: &[DVec3; 4]) -> Result<(), ShapeError> {
@@ -132,10 +133,10 @@ pub(crate) fn check_quad(corners: &[DVec3; 4]) -> Result<(), ShapeError> {
     let area_vector = 0.5 * (c - a).cross(d - b);
     // Twisted and reflex quads are told from flat slivers by their triangles' areas.
     let triangles = [[a, b, c], [b, c, d], [c, d, a], [d, a, b]];
-    for [p, q, r] in triangles {
-        if !((q - p).cross(r - p).length() > PARALLEL * diagonal * diagonal) {
-            return Err(ShapeError::NoArea);
-        }
+    let has_area =
+        |[p, q, r]: [DVec3; 3]| (q - p).cross(r - p).length() > PARALLEL * diagonal * diagonal;
+    if !triangles.into_iter().all(has_area) {
+        return Err(ShapeError::NoArea);
     }
     let turns = triangles.map(|[p, q, r]| (q - p).cross(r - q).dot(area_vector) > 0.0);
     if turns != [true; 4] {

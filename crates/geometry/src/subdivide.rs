@@ -200,9 +200,8 @@ fn cells(face: &Face) -> Vec<([u32; 2], Polygon)> {
 }
 
 fn quad_cells(polygon: &Polygon, a: u32, b: u32) -> Vec<([u32; 2], Polygon)> {
-    let at = |i: u32, j: u32| {
-        polygon.bilinear(f64::from(i) / f64::from(a), f64::from(j) / f64::from(b))
-    };
+    let at =
+        |i: u32, j: u32| polygon.bilinear(f64::from(i) / f64::from(a), f64::from(j) / f64::from(b));
     let cell = |i, j| {
         let corners = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
         ([i, j], Polygon::quad(corners))
@@ -214,8 +213,9 @@ fn quad_cells(polygon: &Polygon, a: u32, b: u32) -> Vec<([u32; 2], Polygon)> {
 }
 
 fn triangle_cells(polygon: &Polygon, n: u32) -> Vec<([u32; 2], Polygon)> {
-    let at =
-        |i: u32, j: u32| polygon.barycentric(f64::from(i) / f64::from(n), f64::from(j) / f64::from(n));
+    let at = |i: u32, j: u32| {
+        polygon.barycentric(f64::from(i) / f64::from(n), f64::from(j) / f64::from(n))
+    };
     let mut cells = Vec::with_capacity(n as usize * n as usize);
     for i in 0..n {
         for j in 0..n - i {

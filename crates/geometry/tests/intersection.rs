@@ -19,8 +19,14 @@ fn unit_square() -> Mesh {
 #[test]
 fn both_sides_are_hit_and_told_apart() {
     let square = unit_square();
-    assert_eq!(hit(&square, [0.5, 0.5, 2.0], [0.0, 0.0, -1.0]), Some((2.0, true)));
-    assert_eq!(hit(&square, [0.5, 0.5, -2.0], [0.0, 0.0, 1.0]), Some((2.0, false)));
+    assert_eq!(
+        hit(&square, [0.5, 0.5, 2.0], [0.0, 0.0, -1.0]),
+        Some((2.0, true))
+    );
+    assert_eq!(
+        hit(&square, [0.5, 0.5, -2.0], [0.0, 0.0, 1.0]),
+        Some((2.0, false))
+    );
     assert_eq!(hit(&square, [0.5, 0.5, 2.0], [0.0, 0.0, 1.0]), None);
     assert_eq!(hit(&square, [1.5, 0.5, 2.0], [0.0, 0.0, -1.0]), None);
 }
@@ -39,7 +45,10 @@ fn rays_in_or_parallel_to_the_plane_miss() {
 fn edges_and_corners_belong_to_the_face() {
     let square = unit_square();
     for (x, y) in [(0.0, 0.5), (1.0, 0.5), (0.0, 0.0), (1.0, 1.0), (0.25, 1.0)] {
-        assert_eq!(hit(&square, [x, y, 1.0], [0.0, 0.0, -1.0]), Some((1.0, true)));
+        assert_eq!(
+            hit(&square, [x, y, 1.0], [0.0, 0.0, -1.0]),
+            Some((1.0, true))
+        );
     }
 }
 
@@ -47,18 +56,22 @@ fn edges_and_corners_belong_to_the_face() {
 fn the_face_a_ray_leaves_is_excluded_by_name() {
     // Far from the origin, where no distance threshold would work.
     let shift = DVec3::new(1e6, -3e6, 7e6);
-    let mesh = surfaces_of([0.0, 1.0].map(|z| Shape::Quad([
-        shift + DVec3::new(0.0, 0.0, z),
-        shift + DVec3::new(1.0, 0.3, z),
-        shift + DVec3::new(1.1, 1.3, z),
-        shift + DVec3::new(0.1, 1.0, z),
-    ])));
+    let mesh = surfaces_of([0.0, 1.0].map(|z| {
+        Shape::Quad([
+            shift + DVec3::new(0.0, 0.0, z),
+            shift + DVec3::new(1.0, 0.3, z),
+            shift + DVec3::new(1.1, 1.3, z),
+            shift + DVec3::new(0.1, 1.0, z),
+        ])
+    }));
     let occluders = Occluders::new(&mesh);
     for k in 0..100 {
         let along = f64::from(k) / 100.0;
         let start = shift + DVec3::new(0.1 + 0.9 * along, 0.5, 0.0);
         let ray = Ray::new(start, DVec3::new(0.01, 0.02, 1.0));
-        let hit = occluders.closest_hit(&ray, 0.0, f64::INFINITY, Some(FaceId(0))).unwrap();
+        let hit = occluders
+            .closest_hit(&ray, 0.0, f64::INFINITY, Some(FaceId(0)))
+            .unwrap();
         assert_eq!(hit.face, FaceId(1));
         assert!((hit.t - 1.0).abs() < 1e-8);
     }
@@ -88,10 +101,17 @@ fn closed_meshes_do_not_leak() {
         let [a, b, c] = [0, 1, 2].map(|k| sphere.positions[face[k] as usize]);
         targets.extend([0.5 * (a + b), 0.5 * (b + c), 0.25 * a + 0.75 * c]);
     }
-    for origin in [DVec3::ZERO, DVec3::new(0.1, 0.2, -0.3), DVec3::new(0.0, 0.5, 0.0)] {
+    for origin in [
+        DVec3::ZERO,
+        DVec3::new(0.1, 0.2, -0.3),
+        DVec3::new(0.0, 0.5, 0.0),
+    ] {
         for target in &targets {
             let ray = Ray::new(origin, *target - origin);
-            assert!(occluders.any_hit(&ray, 0.0, f64::INFINITY, None), "{origin} {target}");
+            assert!(
+                occluders.any_hit(&ray, 0.0, f64::INFINITY, None),
+                "{origin} {target}"
+            );
         }
     }
 }
@@ -132,7 +152,9 @@ fn large_meshes_are_practical() {
         let r = (1.0 - z * z).sqrt();
         let direction = DVec3::new(r * angle.cos(), r * angle.sin(), z);
         let ray = Ray::new(DVec3::ZERO, direction);
-        let hit = occluders.closest_hit(&ray, 0.0, f64::INFINITY, None).unwrap();
+        let hit = occluders
+            .closest_hit(&ray, 0.0, f64::INFINITY, None)
+            .unwrap();
         // The facets lie between the sphere and its inscribed one; edges are at most 0.02 long.
         assert!(hit.t <= 1.0 + 1e-12 && hit.t > 1.0 - 1e-4 && !hit.front);
     }
@@ -142,7 +164,11 @@ fn large_meshes_are_practical() {
 fn a_mesh_shadows_itself_but_its_ends_do_not() {
     // Three parallel walls, one mesh: the middle one stands between the outer ones.
     let wall = |x: f64| [[x, 0.0, 0.0], [x, 1.0, 0.0], [x, 1.0, 1.0], [x, 0.0, 1.0]];
-    let positions = [0.0, 1.0, 2.0].into_iter().flat_map(wall).map(DVec3::from).collect();
+    let positions = [0.0, 1.0, 2.0]
+        .into_iter()
+        .flat_map(wall)
+        .map(DVec3::from)
+        .collect();
     let faces = vec![vec![0, 1, 2, 3], vec![4, 5, 6, 7], vec![11, 10, 9, 8]];
     let mesh = mesh_of(radiosity_geometry::PolygonMesh { positions, faces });
     let occluders = Occluders::new(&mesh);
@@ -166,7 +192,9 @@ fn point(range: std::ops::Range<f64>) -> impl Strategy<Value = DVec3> {
 
 fn triangles(count: usize) -> impl Strategy<Value = Mesh> {
     let triangle = [point(-1.0..1.0), point(-1.0..1.0), point(-1.0..1.0)]
-        .prop_filter("slivers", |[a, b, c]| (*b - *a).cross(*c - *a).length() > 1e-3)
+        .prop_filter("slivers", |[a, b, c]| {
+            (*b - *a).cross(*c - *a).length() > 1e-3
+        })
         .prop_map(Shape::Triangle);
     prop::collection::vec(triangle, 1..count).prop_map(surfaces_of)
 }
@@ -179,7 +207,11 @@ fn oracle(mesh: &Mesh, ray: &Ray) -> Option<(f64, usize)> {
         let s = ray.origin - corners[0];
         let q = s.cross(e1);
         let scale = 1.0 / p.dot(e1);
-        let (u, v, t) = (scale * p.dot(s), scale * q.dot(ray.direction), scale * q.dot(e2));
+        let (u, v, t) = (
+            scale * p.dot(s),
+            scale * q.dot(ray.direction),
+            scale * q.dot(e2),
+        );
         (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t >= 0.0).then_some(t)
     };
     let faces = mesh.faces.iter().enumerate();

@@ -20,7 +20,11 @@ fn cut(shape: Shape, divisions: Divisions) -> Mesh {
 }
 
 fn triangle() -> Shape {
-    Shape::Triangle([DVec3::ZERO, DVec3::new(3.0, 0.0, 1.0), DVec3::new(1.0, 2.0, 0.0)])
+    Shape::Triangle([
+        DVec3::ZERO,
+        DVec3::new(3.0, 0.0, 1.0),
+        DVec3::new(1.0, 2.0, 0.0),
+    ])
 }
 
 fn trapezoid() -> Shape {
@@ -32,7 +36,11 @@ fn any_shape() -> impl Strategy<Value = Shape> {
     prop_oneof![
         Just(triangle()),
         Just(trapezoid()),
-        Just(parallelogram([1.0, 2.0, 3.0], [2.0, 1.0, 0.0], [0.0, 1.0, 3.0])),
+        Just(parallelogram(
+            [1.0, 2.0, 3.0],
+            [2.0, 1.0, 0.0],
+            [0.0, 1.0, 3.0]
+        )),
     ]
 }
 
@@ -47,55 +55,101 @@ fn rectangles_are_cut_in_row_order() {
     assert_eq!(mesh.patches[5].centroid, DVec3::new(1.5, 2.5, 0.0));
     assert_eq!(mesh.patches[5].normal, DVec3::Z);
     assert_eq!(mesh.patches[5].area, 1.0);
-    assert_eq!((mesh.patches[5].face, mesh.patches[5].surface), (FaceId(0), SurfaceId(0)));
+    assert_eq!(
+        (mesh.patches[5].face, mesh.patches[5].surface),
+        (FaceId(0), SurfaceId(0))
+    );
 }
 
 #[test]
 fn a_target_edge_length_gives_the_fewest_cells() {
     let rectangle = parallelogram([0.0; 3], [2.0, 0.0, 0.0], [0.0, 0.9, 0.0]);
-    assert_eq!(cut(rectangle, Divisions::MaxEdge(0.5)).faces[0].grid, Grid::Quad { a: 4, b: 2 });
+    assert_eq!(
+        cut(rectangle, Divisions::MaxEdge(0.5)).faces[0].grid,
+        Grid::Quad { a: 4, b: 2 }
+    );
     let tenth = parallelogram([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
     let grid = cut(tenth, Divisions::MaxEdge(0.1)).faces[0].grid;
-    assert_eq!(grid, Grid::Quad { a: 10, b: 10 }, "rounding must not add a cell");
+    assert_eq!(
+        grid,
+        Grid::Quad { a: 10, b: 10 },
+        "rounding must not add a cell"
+    );
 }
 
 #[test]
 fn mesh_faces_are_patches_unless_a_length_or_the_surface_says_otherwise() {
-    let surface = |divisions| Surface { shape: Shape::Mesh(icosphere(1)), divisions };
+    let surface = |divisions| Surface {
+        shape: Shape::Mesh(icosphere(1)),
+        divisions,
+    };
     let patches = |divisions, default| count_patches(&[surface(divisions)], default).unwrap();
     assert_eq!(patches(None, Divisions::uniform(12)), 80);
-    assert_eq!(patches(Some(Divisions::uniform(3)), Divisions::uniform(12)), 720);
+    assert_eq!(
+        patches(Some(Divisions::uniform(3)), Divisions::uniform(12)),
+        720
+    );
     assert!(patches(None, Divisions::MaxEdge(0.1)) > 1000);
 }
 
 #[test]
 fn planar_quads_of_a_mesh_stay_quads_and_others_become_triangles() {
     let positions = [
-        [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0],
-        [1.0, 1.0, 0.5], [0.2, 0.2, 0.0],
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [1.0, 1.0, 0.5],
+        [0.2, 0.2, 0.0],
     ];
     let positions: Vec<DVec3> = positions.map(DVec3::from).to_vec();
     let faces_of = |face: Vec<u32>| {
-        let mesh = mesh_of(PolygonMesh { positions: positions.clone(), faces: vec![face] });
-        mesh.patches.iter().map(|p| p.polygon.corners().len()).collect::<Vec<_>>()
+        let mesh = mesh_of(PolygonMesh {
+            positions: positions.clone(),
+            faces: vec![face],
+        });
+        mesh.patches
+            .iter()
+            .map(|p| p.polygon.corners().len())
+            .collect::<Vec<_>>()
     };
     assert_eq!(faces_of(vec![0, 1, 2, 3]), [4]);
     assert_eq!(faces_of(vec![0, 1, 4, 3]), [3, 3], "a folded quad");
     assert_eq!(faces_of(vec![0, 1, 5, 3]), [3, 3], "a reflex corner");
-    let concave = mesh_of(PolygonMesh { positions: positions.clone(), faces: vec![vec![0, 1, 5, 3]] });
-    assert!((concave.total_area() - 0.2).abs() < 1e-12, "cut along the inner diagonal");
-    assert!(concave.faces.iter().all(|f| f.normal == DVec3::Z && f.input_index == 0));
+    let concave = mesh_of(PolygonMesh {
+        positions: positions.clone(),
+        faces: vec![vec![0, 1, 5, 3]],
+    });
+    assert!(
+        (concave.total_area() - 0.2).abs() < 1e-12,
+        "cut along the inner diagonal"
+    );
+    assert!(
+        concave
+            .faces
+            .iter()
+            .all(|f| f.normal == DVec3::Z && f.input_index == 0)
+    );
 }
 
 #[test]
 fn neighbouring_faces_of_a_mesh_are_close_in_memory() {
     let mesh = mesh_of(icosphere(4));
     let mut inputs: Vec<u32> = mesh.faces.iter().map(|f| f.input_index).collect();
-    let steps = mesh.patches.windows(2).map(|p| p[0].centroid.distance(p[1].centroid));
+    let steps = mesh
+        .patches
+        .windows(2)
+        .map(|p| p[0].centroid.distance(p[1].centroid));
     let mean_step = steps.sum::<f64>() / (mesh.patches.len() - 1) as f64;
-    assert!(mean_step < 0.15, "a random order would step by 1.33 on average, not {mean_step}");
+    assert!(
+        mean_step < 0.15,
+        "a random order would step by 1.33 on average, not {mean_step}"
+    );
     inputs.sort_unstable();
-    assert!(inputs.into_iter().eq(0..5120), "every input face stands in the order once");
+    assert!(
+        inputs.into_iter().eq(0..5120),
+        "every input face stands in the order once"
+    );
 }
 
 #[test]
@@ -103,33 +157,82 @@ fn bad_shapes_are_explained() {
     let nan = DVec3::new(f64::NAN, 0.0, 0.0);
     let error = |shape| {
         let surfaces = [
-            Surface { shape: triangle(), divisions: None },
-            Surface { shape, divisions: None },
+            Surface {
+                shape: triangle(),
+                divisions: None,
+            },
+            Surface {
+                shape,
+                divisions: None,
+            },
         ];
         match subdivide(&surfaces, Divisions::uniform(1)) {
-            Err(MeshError::Shape { surface: SurfaceId(1), error }) => error,
+            Err(MeshError::Shape {
+                surface: SurfaceId(1),
+                error,
+            }) => error,
             other => panic!("{other:?}"),
         }
     };
     let mesh = |positions: Vec<DVec3>, faces| Shape::Mesh(PolygonMesh { positions, faces });
     let quad = |corners: [[f64; 3]; 4]| Shape::Quad(corners.map(DVec3::from));
     let xy = vec![DVec3::ZERO, DVec3::X, DVec3::Y, 2.0 * DVec3::X];
-    assert_eq!(error(parallelogram([0.0; 3], [1.0, 2.0, 3.0], [2.0, 4.0, 6.0])), ShapeError::NoArea);
-    assert_eq!(error(parallelogram([0.0; 3], [0.0; 3], [2.0, 4.0, 6.0])), ShapeError::NoArea);
+    assert_eq!(
+        error(parallelogram([0.0; 3], [1.0, 2.0, 3.0], [2.0, 4.0, 6.0])),
+        ShapeError::NoArea
+    );
+    assert_eq!(
+        error(parallelogram([0.0; 3], [0.0; 3], [2.0, 4.0, 6.0])),
+        ShapeError::NoArea
+    );
     assert_eq!(error(Shape::Triangle([DVec3::X; 3])), ShapeError::NoArea);
-    assert_eq!(error(Shape::Triangle([nan, DVec3::X, DVec3::Y])), ShapeError::NotFinite);
-    assert_eq!(error(quad([[0.0; 3], [1.0, 0.0, 0.0], [0.2, 0.2, 0.0], [0.0, 1.0, 0.0]])), ShapeError::NotConvex);
-    assert_eq!(error(quad([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]])), ShapeError::NotConvex);
+    assert_eq!(
+        error(Shape::Triangle([nan, DVec3::X, DVec3::Y])),
+        ShapeError::NotFinite
+    );
+    assert_eq!(
+        error(quad([
+            [0.0; 3],
+            [1.0, 0.0, 0.0],
+            [0.2, 0.2, 0.0],
+            [0.0, 1.0, 0.0]
+        ])),
+        ShapeError::NotConvex
+    );
+    assert_eq!(
+        error(quad([
+            [0.0; 3],
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [1.0, 1.0, 0.0]
+        ])),
+        ShapeError::NotConvex
+    );
     assert!(matches!(
-        error(quad([[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.1], [0.0, 1.0, 0.0]])),
+        error(quad([
+            [0.0; 3],
+            [1.0, 0.0, 0.0],
+            [1.0, 1.0, 0.1],
+            [0.0, 1.0, 0.0]
+        ])),
         ShapeError::NotPlanar { .. }
     ));
     assert_eq!(error(mesh(xy.clone(), vec![])), ShapeError::Empty);
     assert_eq!(
         error(mesh(xy.clone(), vec![vec![0, 1, 2], vec![0, 1, 4]])),
-        ShapeError::IndexOutOfRange { face: 1, index: 4, count: 4 }
+        ShapeError::IndexOutOfRange {
+            face: 1,
+            index: 4,
+            count: 4
+        }
     );
-    assert_eq!(error(mesh(xy.clone(), vec![vec![0, 1]])), ShapeError::CornerCount { face: 0, corners: 2 });
+    assert_eq!(
+        error(mesh(xy.clone(), vec![vec![0, 1]])),
+        ShapeError::CornerCount {
+            face: 0,
+            corners: 2
+        }
+    );
     assert_eq!(
         error(mesh(xy, vec![vec![0, 1, 2], vec![0, 1, 3]])),
         ShapeError::FaceWithoutArea { face: 1 }
@@ -139,17 +242,41 @@ fn bad_shapes_are_explained() {
 #[test]
 fn bad_divisions_are_explained() {
     let cut = |divisions| {
-        let surface = Surface { shape: triangle(), divisions: Some(divisions) };
-        subdivide(&[surface], Divisions::uniform(1)).map(|_| ()).unwrap_err()
+        let surface = Surface {
+            shape: triangle(),
+            divisions: Some(divisions),
+        };
+        subdivide(&[surface], Divisions::uniform(1))
+            .map(|_| ())
+            .unwrap_err()
     };
     let surface = SurfaceId(0);
-    assert_eq!(cut(Divisions::Count { a: 2, b: 3 }), MeshError::TwoCountsOnTriangle { surface, a: 2, b: 3 });
-    assert_eq!(cut(Divisions::uniform(0)), MeshError::NoDivisions { surface });
-    assert_eq!(cut(Divisions::MaxEdge(-1.0)), MeshError::NoDivisions { surface });
-    assert_eq!(cut(Divisions::MaxEdge(f64::NAN)), MeshError::NoDivisions { surface });
+    assert_eq!(
+        cut(Divisions::Count { a: 2, b: 3 }),
+        MeshError::TwoCountsOnTriangle {
+            surface,
+            a: 2,
+            b: 3
+        }
+    );
+    assert_eq!(
+        cut(Divisions::uniform(0)),
+        MeshError::NoDivisions { surface }
+    );
+    assert_eq!(
+        cut(Divisions::MaxEdge(-1.0)),
+        MeshError::NoDivisions { surface }
+    );
+    assert_eq!(
+        cut(Divisions::MaxEdge(f64::NAN)),
+        MeshError::NoDivisions { surface }
+    );
     assert_eq!(cut(Divisions::uniform(u32::MAX)), MeshError::TooManyPatches);
     assert_eq!(cut(Divisions::MaxEdge(1e-300)), MeshError::TooManyPatches);
-    assert_eq!(subdivide(&[], Divisions::uniform(1)).unwrap_err(), MeshError::Empty);
+    assert_eq!(
+        subdivide(&[], Divisions::uniform(1)).unwrap_err(),
+        MeshError::Empty
+    );
 }
 
 /// The course's camera: where the corners of its lamp appear is known.
@@ -173,12 +300,26 @@ fn the_camera_projects_as_the_course_does() {
 #[test]
 fn impossible_cameras_are_refused() {
     let camera = |direction, up, fov, near| {
-        Camera::new(DVec3::ZERO, direction, up, fov, near).map(|_| ()).unwrap_err()
+        Camera::new(DVec3::ZERO, direction, up, fov, near)
+            .map(|_| ())
+            .unwrap_err()
     };
-    assert_eq!(camera(DVec3::ZERO, DVec3::Y, 30.0, 0.0), CameraError::NoDirection);
-    assert_eq!(camera(DVec3::Y, DVec3::Y, 30.0, 0.0), CameraError::UpParallel);
-    assert_eq!(camera(DVec3::Z, DVec3::Y, 180.0, 0.0), CameraError::FieldOfView);
-    assert_eq!(camera(DVec3::Z, DVec3::Y, f64::NAN, 0.0), CameraError::FieldOfView);
+    assert_eq!(
+        camera(DVec3::ZERO, DVec3::Y, 30.0, 0.0),
+        CameraError::NoDirection
+    );
+    assert_eq!(
+        camera(DVec3::Y, DVec3::Y, 30.0, 0.0),
+        CameraError::UpParallel
+    );
+    assert_eq!(
+        camera(DVec3::Z, DVec3::Y, 180.0, 0.0),
+        CameraError::FieldOfView
+    );
+    assert_eq!(
+        camera(DVec3::Z, DVec3::Y, f64::NAN, 0.0),
+        CameraError::FieldOfView
+    );
     assert_eq!(camera(DVec3::Z, DVec3::Y, 30.0, -1.0), CameraError::Near);
 }
 

@@ -113,7 +113,11 @@ pub fn packed_row(i: usize) -> Range<usize> {
 
 /// Cuts packed values into blocks of whole rows, each with its first row, for filling in
 /// parallel. The last block may have fewer rows.
-pub fn row_blocks_mut(size: usize, values: &mut [f32], rows: usize) -> Vec<(Range<usize>, &mut [f32])> {
+pub fn row_blocks_mut(
+    size: usize,
+    values: &mut [f32],
+    rows: usize,
+) -> Vec<(Range<usize>, &mut [f32])> {
     let mut blocks = Vec::with_capacity(size.div_ceil(rows.max(1)));
     let mut rest = values;
     for first in (0..size).step_by(rows.max(1)) {
@@ -145,7 +149,10 @@ mod tests {
     fn rows_are_the_lower_triangle() {
         let matrix = counting(4);
         let rows: Vec<Vec<f32>> = matrix.rows().map(|(_, row)| row.to_vec()).collect();
-        assert_eq!(rows, [vec![], vec![0.0], vec![1.0, 2.0], vec![3.0, 4.0, 5.0]]);
+        assert_eq!(
+            rows,
+            [vec![], vec![0.0], vec![1.0, 2.0], vec![3.0, 4.0, 5.0]]
+        );
     }
 
     proptest! {

@@ -80,7 +80,9 @@ impl Error {
             ),
             MeshError::NoDivisions { surface } => {
                 let name = name(surface);
-                format!("surface `{name}` has no usable subdivision: counts and lengths must be positive")
+                format!(
+                    "surface `{name}` has no usable subdivision: counts and lengths must be positive"
+                )
             }
             other => other.to_string(),
         })

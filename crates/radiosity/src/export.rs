@@ -43,7 +43,11 @@ fn input_order(scene: &Scene, mesh: &Mesh) -> Vec<(usize, [u32; 2])> {
         }
         for patch in face.patches() {
             let on_face = mesh.patches[patch].cell;
-            let cell = if is_mesh { [face.input_index, position] } else { on_face };
+            let cell = if is_mesh {
+                [face.input_index, position]
+            } else {
+                on_face
+            };
             rows.push((patch, cell));
             position += 1;
         }

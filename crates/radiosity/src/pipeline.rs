@@ -104,8 +104,7 @@ impl<'a> Pipeline<'a> {
         observer: &'a dyn Observer,
     ) -> Result<Pipeline<'a>, Error> {
         let of_mesh = |error| Error::of_mesh(scene, &error);
-        let patches =
-            geometry::count_patches(&scene.geometry, scene.divisions).map_err(of_mesh)?;
+        let patches = geometry::count_patches(&scene.geometry, scene.divisions).map_err(of_mesh)?;
         Needs::of(patches).check(cache)?;
         let mesh = geometry::subdivide(&scene.geometry, scene.divisions).map_err(of_mesh)?;
         let material = |patch: usize| {
@@ -117,7 +116,9 @@ impl<'a> Pipeline<'a> {
             cache,
             observer,
             emission: (0..patches).map(|patch| material(patch).emission).collect(),
-            reflectance: (0..patches).map(|patch| material(patch).reflectance).collect(),
+            reflectance: (0..patches)
+                .map(|patch| material(patch).reflectance)
+                .collect(),
             mesh,
         })
     }
@@ -247,12 +248,15 @@ impl<'a> Pipeline<'a> {
         }
         let waiting = || {
             let stage = id.stage;
-            self.observer.note(&format!("waiting for another process that makes the {stage}"));
+            self.observer.note(&format!(
+                "waiting for another process that makes the {stage}"
+            ));
         };
         let _lock = match store.lock(id, waiting) {
             Ok(lock) => Some(lock),
             Err(error) => {
-                self.observer.note(&format!("{error}; the {} will not be cached", id.stage));
+                self.observer
+                    .note(&format!("{error}; the {} will not be cached", id.stage));
                 None
             }
         };
@@ -265,7 +269,8 @@ impl<'a> Pipeline<'a> {
         let file = match write(store, &artifact) {
             Ok(_) => Some(path),
             Err(error) => {
-                self.observer.note(&format!("{error}; the {} are not cached", id.stage));
+                self.observer
+                    .note(&format!("{error}; the {} are not cached", id.stage));
                 None
             }
         };
@@ -371,7 +376,8 @@ impl<'a> Pipeline<'a> {
             reflectance: &self.reflectance,
         };
         let params = self.solver_params();
-        self.observer.begin(Stage::Solve, u64::from(params.max_sweeps));
+        self.observer
+            .begin(Stage::Solve, u64::from(params.max_sweeps));
         let solution = solver::solve(&system, &params, &mut |_| self.observer.advance(1));
         self.observer.end();
         let name_of = |patch| self.surface_name(patch).to_owned();
@@ -394,7 +400,11 @@ impl RowSummary {
     fn of(rows: &[RowFacts]) -> RowSummary {
         let sums = || rows.iter().map(|row| row.fronts);
         let largest = sums().enumerate().fold((0.0, 0), |best, (patch, sum)| {
-            if sum > best.0 { (sum, patch as u64) } else { best }
+            if sum > best.0 {
+                (sum, patch as u64)
+            } else {
+                best
+            }
         });
         RowSummary {
             mean: sums().sum::<f64>() / rows.len() as f64,

@@ -136,7 +136,11 @@ impl<'a> Report<'a> {
         } = report.energy;
         let percent = |part: [f64; 3]| {
             let whole: f64 = emitted.iter().sum();
-            let share = if whole > 0.0 { part.iter().sum::<f64>() / whole } else { 0.0 };
+            let share = if whole > 0.0 {
+                part.iter().sum::<f64>() / whole
+            } else {
+                0.0
+            };
             format!("{:.1} %", 100.0 * share)
         };
         self.terminal.line(&indented(&format!(
@@ -200,7 +204,11 @@ pub(crate) fn check_lines(scene: &Scene) -> Result<Vec<String>, Error> {
     let patches = count_patches(&scene.geometry, scene.divisions)
         .map_err(|error| Error::of_mesh(scene, &error))?;
     let needs = Needs::of(patches);
-    let camera = if scene.camera.is_some() { "" } else { " (no camera: it cannot be rendered)" };
+    let camera = if scene.camera.is_some() {
+        ""
+    } else {
+        " (no camera: it cannot be rendered)"
+    };
     let mut lines = vec![
         format!("{}{camera}", scene_line(scene, patches)),
         format!(
@@ -212,7 +220,9 @@ pub(crate) fn check_lines(scene: &Scene) -> Result<Vec<String>, Error> {
         ),
     ];
     if scene.materials.iter().all(|m| m.emission == [0.0; 3]) {
-        lines.push(indented("warning: nothing emits light; pictures will be black"));
+        lines.push(indented(
+            "warning: nothing emits light; pictures will be black",
+        ));
     }
     needs.check(None)?;
     Ok(lines)

@@ -125,17 +125,29 @@ mod tests {
 
     #[test]
     fn quantities_are_readable() {
-        assert_eq!(["0", "999", "1,728", "1,492,128"], [0, 999, 1728, 1_492_128].map(grouped)[..]);
+        assert_eq!(
+            ["0", "999", "1,728", "1,492,128"],
+            [0, 999, 1728, 1_492_128].map(grouped)[..]
+        );
         let sizes = [12, 999, 1_000, 5_968_512, 123_456_789, 1_530_000_000].map(bytes);
-        assert_eq!(sizes, ["12 B", "999 B", "1.0 kB", "6.0 MB", "123 MB", "1.5 GB"]);
+        assert_eq!(
+            sizes,
+            ["12 B", "999 B", "1.0 kB", "6.0 MB", "123 MB", "1.5 GB"]
+        );
         let times = [0.1, 7.4, 600.0, 9000.0].map(duration);
-        assert_eq!(times, ["under a second", "about 7 s", "about 10 min", "about 2.5 h"]);
+        assert_eq!(
+            times,
+            ["under a second", "about 7 s", "about 10 min", "about 2.5 h"]
+        );
     }
 
     #[test]
     fn impossible_runs_are_refused_with_a_remedy() {
         let error = Needs::of(1 << 20).check(None).unwrap_err().to_string();
-        assert!(error.contains("1,048,576 patches need 2.2 TB of memory"), "{error}");
+        assert!(
+            error.contains("1,048,576 patches need 2.2 TB of memory"),
+            "{error}"
+        );
         assert!(error.contains("use fewer patches"), "{error}");
         assert!(Needs::of(100).check(None).is_ok());
     }

@@ -17,7 +17,11 @@ pub(crate) fn bicubic(
     let mut sum = [0.0; 3];
     for (i, weight_a) in (i0..).zip(weights_a) {
         for (j, weight_b) in (j0..).zip(weights_b) {
-            add_scaled(&mut sum, weight_a * weight_b, value(clamp(i, a), clamp(j, b)));
+            add_scaled(
+                &mut sum,
+                weight_a * weight_b,
+                value(clamp(i, a), clamp(j, b)),
+            );
         }
     }
     sum

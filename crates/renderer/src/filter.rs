@@ -44,7 +44,10 @@ mod tests {
 
     #[test]
     fn samples_have_the_filters_support_and_moments() {
-        let filter = SubpixelTents { subpixels: 2, samples: 4 };
+        let filter = SubpixelTents {
+            subpixels: 2,
+            samples: 4,
+        };
         let mut rng = rand_pcg::Pcg64Mcg::seed_from_u64(1);
         let rounds = 20_000;
         let (mut sum, mut squares) = (0.0, 0.0);

@@ -123,7 +123,9 @@ impl View<'_> {
         let aspect = f64::from(self.params.width) / f64::from(self.params.height);
         let ray = self.camera.ray(film_x, film_y, aspect);
         let near = self.camera.near();
-        let hit = self.occluders.closest_hit(&ray, near, f64::INFINITY, None)?;
+        let hit = self
+            .occluders
+            .closest_hit(&ray, near, f64::INFINITY, None)?;
         if !hit.front {
             return None;
         }

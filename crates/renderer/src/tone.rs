@@ -48,7 +48,11 @@ mod tests {
             height: 1,
             pixels: vec![[0.0, 0.25, 0.125], [-1.0, 7.0, f32::NAN]],
         };
-        let picture = ToneMap { exposure: 4.0, gamma: 2.2 }.apply(&image);
+        let picture = ToneMap {
+            exposure: 4.0,
+            gamma: 2.2,
+        }
+        .apply(&image);
         // 0.5^(1/2.2) = 0.72974; not a number is shown black.
         assert_eq!(picture.bytes, [0, 255, 186, 0, 255, 0]);
     }

@@ -52,7 +52,10 @@ impl VertexValues {
             }
         }
         let mut result = VertexValues {
-            values: vertices.iter().map(|v| average(v, fields.radiosity)).collect(),
+            values: vertices
+                .iter()
+                .map(|v| average(v, fields.radiosity))
+                .collect(),
             corners,
         };
         for _ in 0..SHARPENING {
@@ -64,7 +67,11 @@ impl VertexValues {
     fn sharpen(&mut self, mesh: &Mesh, fields: &Fields<'_>, vertices: &[Vec<Corner>]) {
         let missing = |patch: usize| {
             let polygon = &mesh.patches[patch].polygon;
-            let center = if polygon.is_triangle() { 1.0 / 3.0 } else { 0.5 };
+            let center = if polygon.is_triangle() {
+                1.0 / 3.0
+            } else {
+                0.5
+            };
             let shown = self.at(polygon, patch, DVec2::splat(center));
             std::array::from_fn(|c| fields.radiosity[patch][c] - shown[c])
         };
@@ -107,7 +114,11 @@ fn weld(mesh: &Mesh) -> Vec<Vec<Corner>> {
             let vertex = vertices.find_or_add(point);
             corners.resize_with(vertices.positions.len(), Vec::new);
             let angle = angle_at(points, index) as f32;
-            corners[vertex].push(Corner { patch, index, angle });
+            corners[vertex].push(Corner {
+                patch,
+                index,
+                angle,
+            });
         }
     }
     corners
@@ -129,13 +140,15 @@ struct Vertices {
 
 impl Vertices {
     fn find_or_add(&mut self, point: DVec3) -> usize {
-        let (low, high) = (self.cell(point - self.distance), self.cell(point + self.distance));
+        let (low, high) = (
+            self.cell(point - self.distance),
+            self.cell(point + self.distance),
+        );
         for x in low[0]..=high[0] {
             for y in low[1]..=high[1] {
                 for z in low[2]..=high[2] {
                     let there = self.cells.get(&[x, y, z]).into_iter().flatten();
-                    let is_near =
-                        |&&k: &&usize| self.positions[k].distance(point) <= self.distance;
+                    let is_near = |&&k: &&usize| self.positions[k].distance(point) <= self.distance;
                     if let Some(&found) = there.clone().find(is_near) {
                         return found;
                     }
@@ -143,13 +156,19 @@ impl Vertices {
             }
         }
         let cell = self.cell(point);
-        self.cells.entry(cell).or_default().push(self.positions.len());
+        self.cells
+            .entry(cell)
+            .or_default()
+            .push(self.positions.len());
         self.positions.push(point);
         self.positions.len() - 1
     }
 
     fn cell(&self, point: DVec3) -> [i64; 3] {
-        (point / (4.0 * self.distance)).floor().to_array().map(|x| x as i64)
+        (point / (4.0 * self.distance))
+            .floor()
+            .to_array()
+            .map(|x| x as i64)
     }
 }
 

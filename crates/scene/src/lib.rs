@@ -19,7 +19,7 @@ mod values;
 #[cfg(test)]
 mod tests;
 
-pub use scene::{Scene, Surface, load, parse};
 pub use material::Material;
+pub use scene::{Scene, Surface, load, parse};
 pub use settings::{FormFactorSettings, ImageSettings, Mode, SolverSettings};
 pub use source::SceneError;

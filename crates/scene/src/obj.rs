@@ -79,7 +79,10 @@ fn materials_named(names: &[Rc<str>]) -> (Vec<tobj::Material>, MaterialMap) {
         name: name.to_string(),
         ..Default::default()
     };
-    let map = names.iter().enumerate().map(|(k, name)| (name.to_string(), k));
+    let map = names
+        .iter()
+        .enumerate()
+        .map(|(k, name)| (name.to_string(), k));
     (names.iter().map(material).collect(), map.collect())
 }
 
@@ -100,7 +103,14 @@ fn assemble(models: &[tobj::Model], materials: &[Rc<str>]) -> ObjMesh {
         let positions = mesh.positions.chunks_exact(3).map(DVec3::from_slice);
         result.mesh.positions.extend(positions);
         // tobj leaves the arities out where all faces are triangles.
-        let triangles = vec![3; if mesh.face_arities.is_empty() { mesh.indices.len() / 3 } else { 0 }];
+        let triangles = vec![
+            3;
+            if mesh.face_arities.is_empty() {
+                mesh.indices.len() / 3
+            } else {
+                0
+            }
+        ];
         let mut rest = mesh.indices.as_slice();
         for &arity in mesh.face_arities.iter().chain(&triangles) {
             let (corners, tail) = rest.split_at(arity as usize);
@@ -150,9 +160,15 @@ fn explain(source: &Source<'_>, error: &LoadError, line: usize) -> SceneError {
 /// The line, counted from 1, of the first face that names a vertex beyond the last one.
 fn first_face_out_of_bounds(text: &str) -> Option<usize> {
     let keyword = |line: &str| line.split_whitespace().next().map(str::to_owned);
-    let vertices = text.lines().filter(|l| keyword(l).as_deref() == Some("v")).count();
+    let vertices = text
+        .lines()
+        .filter(|l| keyword(l).as_deref() == Some("v"))
+        .count();
     let exceeds = |corner: &str| {
-        let index = corner.split('/').next().and_then(|index| index.parse::<usize>().ok());
+        let index = corner
+            .split('/')
+            .next()
+            .and_then(|index| index.parse::<usize>().ok());
         index.is_some_and(|index| index > vertices)
     };
     let is_bad = |line: &str| {

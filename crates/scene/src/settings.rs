@@ -112,15 +112,33 @@ impl ImageTable {
     pub(crate) fn check(&self, source: &Source<'_>) -> Result<ImageSettings, SceneError> {
         let size = |entry: &Option<_>, default, what| {
             let limits = (what, "between 1 and 65536");
-            value_or(source, entry.as_ref(), default, |n| (1..=1 << 16).contains(&n), limits)
+            value_or(
+                source,
+                entry.as_ref(),
+                default,
+                |n| (1..=1 << 16).contains(&n),
+                limits,
+            )
         };
         let count = |entry: &Option<_>, default, what| {
             let limits = (what, "between 1 and 64");
-            value_or(source, entry.as_ref(), default, |n| (1..=64).contains(&n), limits)
+            value_or(
+                source,
+                entry.as_ref(),
+                default,
+                |n| (1..=64).contains(&n),
+                limits,
+            )
         };
         let positive = |entry: &Option<_>, default, what| {
             let limits = (what, "a positive number");
-            value_or(source, entry.as_ref(), default, |x: f64| x > 0.0 && x.is_finite(), limits)
+            value_or(
+                source,
+                entry.as_ref(),
+                default,
+                |x: f64| x > 0.0 && x.is_finite(),
+                limits,
+            )
         };
         Ok(ImageSettings {
             width: size(&self.width, 640, "`width`")?,
@@ -136,7 +154,11 @@ impl ImageTable {
 
 impl DiscretizationTable {
     pub(crate) fn check(&self, source: &Source<'_>) -> Result<Divisions, SceneError> {
-        let given = divisions(source, self.divisions.as_ref(), self.max_patch_edge.as_ref())?;
+        let given = divisions(
+            source,
+            self.divisions.as_ref(),
+            self.max_patch_edge.as_ref(),
+        )?;
         Ok(given.unwrap_or(Divisions::uniform(12)))
     }
 }
@@ -150,7 +172,13 @@ impl FormFactorTable {
         }
         Ok(FormFactorSettings {
             mode: self.mode.unwrap_or(Mode::Regular),
-            points: value_or(source, self.points.as_ref(), 3, |n| (1..=64).contains(&n), points)?,
+            points: value_or(
+                source,
+                self.points.as_ref(),
+                3,
+                |n| (1..=64).contains(&n),
+                points,
+            )?,
             pairs: pairs.map(|pairs| *pairs.get_ref()),
             seed: self.seed.unwrap_or(0),
         })

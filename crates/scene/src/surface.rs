@@ -119,7 +119,12 @@ impl Context<'_> {
             span,
             labels: Vec::new(),
         };
-        match (&table.parallelogram, &table.triangle, &table.quad, &table.mesh) {
+        match (
+            &table.parallelogram,
+            &table.triangle,
+            &table.quad,
+            &table.mesh,
+        ) {
             (Some(p), None, None, None) => {
                 let shape = Shape::Parallelogram {
                     corner: vector(&self.source, &p.get_ref().corner, "`corner`")?,
@@ -187,7 +192,13 @@ impl Context<'_> {
         let mut scale = 1.0;
         if let Some(entry) = &table.scale {
             let positive = |&x: &f64| x > 0.0 && x.is_finite();
-            require(&self.source, entry, positive, "`scale`", "a positive number")?;
+            require(
+                &self.source,
+                entry,
+                positive,
+                "`scale`",
+                "a positive number",
+            )?;
             scale = *entry.get_ref();
         }
         let offset = match &table.translate {

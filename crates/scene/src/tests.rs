@@ -47,7 +47,10 @@ fn a_scene_means_what_it_says() {
     let scene = parse_text(GOOD).unwrap();
     assert_eq!(scene.name, "test");
     assert_eq!(scene.surfaces[1].name, "wing");
-    assert_eq!(scene.geometry[0].divisions, Some(Divisions::Count { a: 3, b: 4 }));
+    assert_eq!(
+        scene.geometry[0].divisions,
+        Some(Divisions::Count { a: 3, b: 4 })
+    );
     assert_eq!(scene.geometry[1].divisions, Some(Divisions::MaxEdge(0.25)));
     assert_eq!(scene.material(SurfaceId(0), 0).reflectance, [0.75; 3]);
     assert_eq!(scene.material(SurfaceId(1), 0).emission, [12.0; 3]);
@@ -62,8 +65,14 @@ fn what_is_not_said_has_defaults() {
     assert_eq!((scene.image.width, scene.image.height), (640, 480));
     assert_eq!((scene.image.subpixels, scene.image.samples), (2, 4));
     assert_eq!((scene.image.exposure, scene.image.gamma), (1.0, 2.2));
-    assert_eq!((scene.form_factors.mode, scene.form_factors.points), (Mode::Regular, 3));
-    assert_eq!((scene.solver.tolerance, scene.solver.max_sweeps), (1e-6, 200));
+    assert_eq!(
+        (scene.form_factors.mode, scene.form_factors.points),
+        (Mode::Regular, 3)
+    );
+    assert_eq!(
+        (scene.solver.tolerance, scene.solver.max_sweeps),
+        (1e-6, 200)
+    );
 }
 
 /// One mistake per line; the messages are in the snapshot, to be read as a user would.
@@ -84,7 +93,10 @@ fn mistakes_are_explained() {
         ("edge_b = [0, 1, 0]", "edge_b = [inf, 0, 0]"),
         ("edge_b = [0, 1, 0]", "edge_b = [0, 1]"),
         ("[1, 0, 1], ", ""),
-        ("parallelogram = ", "triangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nparallelogram = "),
+        (
+            "parallelogram = ",
+            "triangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nparallelogram = ",
+        ),
         ("parallelogram = ", "quad = "),
         (
             "triangle = [[0, 0, 1], [1, 0, 1], [0, 1, 1]]",
@@ -144,7 +156,10 @@ const TWO_GROUPS: &str = "# two groups\nmtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 1 1
 
 fn reflectances(scene: &Scene) -> Vec<f64> {
     let materials = &scene.surfaces[0].materials;
-    materials.iter().map(|&m| scene.materials[m].reflectance[0]).collect()
+    materials
+        .iter()
+        .map(|&m| scene.materials[m].reflectance[0])
+        .collect()
 }
 
 #[test]
@@ -152,17 +167,29 @@ fn meshes_take_materials_by_group_or_material_name() {
     let scene = MeshScene::new(TWO_GROUPS);
     let parse = |extra| scene.parse("model.obj", extra).unwrap();
     assert_eq!(reflectances(&parse(" }")), [0.1, 0.1]);
-    assert_eq!(reflectances(&parse(" }\nmaterials = { base = \"b\" }")), [0.2, 0.1]);
-    assert_eq!(reflectances(&parse(" }\nmaterials = { side = \"b\" }")), [0.1, 0.2]);
+    assert_eq!(
+        reflectances(&parse(" }\nmaterials = { base = \"b\" }")),
+        [0.2, 0.1]
+    );
+    assert_eq!(
+        reflectances(&parse(" }\nmaterials = { side = \"b\" }")),
+        [0.1, 0.2]
+    );
     let both = parse(" }\nmaterials = { side = \"a\", \"shiny thing\" = \"b\" }");
-    assert_eq!(reflectances(&both), [0.1, 0.2], "the material name is the more specific one");
+    assert_eq!(
+        reflectances(&both),
+        [0.1, 0.2],
+        "the material name is the more specific one"
+    );
 }
 
 #[test]
 fn mesh_quads_stay_and_larger_polygons_become_triangles() {
     let faces = |obj: &str| {
         let scene = MeshScene::new(obj).parse("model.obj", " }").unwrap();
-        let Shape::Mesh(mesh) = &scene.geometry[0].shape else { panic!() };
+        let Shape::Mesh(mesh) = &scene.geometry[0].shape else {
+            panic!()
+        };
         mesh.faces.iter().map(Vec::len).collect::<Vec<_>>()
     };
     assert_eq!(faces(TWO_GROUPS), [4, 3]);
@@ -179,8 +206,12 @@ fn mesh_quads_stay_and_larger_polygons_become_triangles() {
 #[test]
 fn meshes_are_scaled_and_then_moved() {
     let scene = MeshScene::new(TWO_GROUPS);
-    let scene = scene.parse("model.obj", ", scale = 2, translate = [0, 0, 7] }").unwrap();
-    let Shape::Mesh(mesh) = &scene.geometry[0].shape else { panic!() };
+    let scene = scene
+        .parse("model.obj", ", scale = 2, translate = [0, 0, 7] }")
+        .unwrap();
+    let Shape::Mesh(mesh) = &scene.geometry[0].shape else {
+        panic!()
+    };
     assert!(mesh.positions.contains(&DVec3::new(2.0, 2.0, 7.0)));
 }
 
@@ -192,8 +223,16 @@ fn mesh_mistakes_are_explained() {
         writeln!(report, "{error}\n").unwrap();
     };
     add("v 0 0 0\nv 1 x 0\n", "model.obj", " }");
-    add("v 0 0 0\nv 1 0 0\nv 0 1 0\n# fine so far\nf 1 2 9\n", "model.obj", " }");
-    add("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 three\n", "model.obj", " }");
+    add(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\n# fine so far\nf 1 2 9\n",
+        "model.obj",
+        " }",
+    );
+    add(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 three\n",
+        "model.obj",
+        " }",
+    );
     add("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "model.obj", " }");
     add("v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n", "model.obj", " }");
     add("# nothing here\n", "model.obj", " }");
@@ -218,7 +257,13 @@ fn shipped_scenes_are_good_and_open_with_a_comment() {
             names.push(scene.name);
         }
     }
-    for name in ["cornell", "cornell-closed", "cornell-triangles", "furnace", "knot"] {
+    for name in [
+        "cornell",
+        "cornell-closed",
+        "cornell-triangles",
+        "furnace",
+        "knot",
+    ] {
         assert!(names.iter().any(|n| n == name), "{name}");
     }
 }

@@ -55,8 +55,8 @@ impl<'de> Deserialize<'de> for Counts {
 
             fn visit_i64<E: Error>(self, value: i64) -> Result<Counts, E> {
                 let unexpected = serde::de::Unexpected::Signed(value);
-                let count = u32::try_from(value)
-                    .map_err(|_| Error::invalid_value(unexpected, &self))?;
+                let count =
+                    u32::try_from(value).map_err(|_| Error::invalid_value(unexpected, &self))?;
                 Ok(Counts(count, count))
             }
 
@@ -93,7 +93,10 @@ pub(crate) fn require<T>(
     if holds(value.get_ref()) {
         return Ok(());
     }
-    let complaint = Complaint::new(format!("{what} is out of range"), format!("must be {range}"));
+    let complaint = Complaint::new(
+        format!("{what} is out of range"),
+        format!("must be {range}"),
+    );
     Err(source.error(value.span(), &complaint))
 }
 
@@ -126,7 +129,13 @@ pub(crate) fn divisions(
         }
         (None, Some(max_edge)) => {
             let positive = |&length: &f64| length > 0.0 && length.is_finite();
-            require(source, max_edge, positive, "`max_patch_edge`", "a positive length")?;
+            require(
+                source,
+                max_edge,
+                positive,
+                "`max_patch_edge`",
+                "a positive length",
+            )?;
             Ok(Some(Divisions::MaxEdge(*max_edge.get_ref())))
         }
         (None, None) => Ok(None),

@@ -7,10 +7,10 @@
 //! ends, the same sums with the new values are known, and their difference is the exact
 //! residual: `r_i = rho_i / A_i * (below_new - below_old)`.
 
+use crate::Rgb;
 use crate::energy::Energy;
 use crate::power_iteration::spectral_radius;
 use crate::system::{Lanes, System, add_scaled, lanes, rgb};
-use crate::Rgb;
 use serde::{Deserialize, Serialize};
 
 /// When to stop.
@@ -147,7 +147,12 @@ impl<'a> Iteration<'a> {
             system,
             x,
             below,
-            gain: system.reflectance.iter().zip(system.areas).map(gain).collect(),
+            gain: system
+                .reflectance
+                .iter()
+                .zip(system.areas)
+                .map(gain)
+                .collect(),
         }
     }
 
@@ -183,7 +188,7 @@ fn scatter(row: &[f32], x_i: &Lanes, below: &mut [Lanes]) {
 }
 
 fn is_growing(residuals: &[f64]) -> bool {
-    residuals.len() % SUSPICIOUS_GROWTH == 0
+    residuals.len().is_multiple_of(SUSPICIOUS_GROWTH)
         && residuals
             .last_chunk::<SUSPICIOUS_GROWTH>()
             .is_some_and(|last| last.is_sorted() && last[0] < last[SUSPICIOUS_GROWTH - 1])

@@ -18,7 +18,13 @@ pub(crate) fn spectral_radius(system: &System<'_>) -> f64 {
             *x = std::array::from_fn(|c| rho[c] * h[c]);
         }
         let after = channel_norms(system, &x);
-        growth = std::array::from_fn(|c| if before[c] > 0.0 { after[c] / before[c] } else { 0.0 });
+        growth = std::array::from_fn(|c| {
+            if before[c] > 0.0 {
+                after[c] / before[c]
+            } else {
+                0.0
+            }
+        });
         for x in &mut x {
             *x = std::array::from_fn(|c| if after[c] > 0.0 { x[c] / after[c] } else { 0.0 });
         }

@@ -51,7 +51,12 @@ fn random_case() -> impl Strategy<Value = Case> {
                 let scale = (0.5 / total / (size - 1) as f64) as f32;
                 exchange.iter_mut().for_each(|s| *s *= scale);
                 let exchange = SymmetricMatrix::new(size, exchange).unwrap();
-                Case { exchange, areas, emission, reflectance }
+                Case {
+                    exchange,
+                    areas,
+                    emission,
+                    reflectance,
+                }
             },
         )
     })
@@ -100,7 +105,10 @@ fn darkness_needs_no_sweep() {
 #[test]
 fn running_out_of_sweeps_is_reported() {
     let case = Case::uniform_enclosure(5, [1.0; 3], [0.99; 3]);
-    let params = Params { max_sweeps: 3, ..Params::default() };
+    let params = Params {
+        max_sweeps: 3,
+        ..Params::default()
+    };
     let report = solve(&case.system(), &params, &mut |_| ()).unwrap().report;
     assert!(!report.converged);
     assert_eq!(report.residuals.len(), 3);
@@ -113,7 +121,11 @@ fn a_system_that_makes_light_names_its_worst_patches() {
     values[packed_len(3) + 1] *= 10.0;
     case.exchange = SymmetricMatrix::new(5, values).unwrap();
     let error = solve(&case.system(), &Params::default(), &mut |_| ()).unwrap_err();
-    let SolveError::Diverges { spectral_radius, worst_patches } = error else {
+    let SolveError::Diverges {
+        spectral_radius,
+        worst_patches,
+    } = error
+    else {
         panic!("expected divergence, got {error}");
     };
     assert!(spectral_radius > 1.0);
@@ -129,7 +141,9 @@ fn barely_diverging_systems_are_caught_at_the_sweep_limit() {
     let error = solve(&case.system(), &Params::default(), &mut |_| ());
     // f32 row sums lie within 1e-7 of 1, so either side of the threshold is honest.
     match error {
-        Err(SolveError::Diverges { spectral_radius, .. }) => {
+        Err(SolveError::Diverges {
+            spectral_radius, ..
+        }) => {
             assert!((spectral_radius - 1.0).abs() < 1e-6);
         }
         Ok(solution) => assert!(!solution.report.converged),

@@ -71,7 +71,12 @@ fn refined(mut positions: Vec<DVec3>, faces: &[Vec<u32>]) -> (Vec<DVec3>, Vec<Ve
     for face in faces {
         let [a, b, c] = [face[0], face[1], face[2]];
         let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
-        finer.extend([vec![a, ab, ca], vec![b, bc, ab], vec![c, ca, bc], vec![ab, bc, ca]]);
+        finer.extend([
+            vec![a, ab, ca],
+            vec![b, bc, ab],
+            vec![c, ca, bc],
+            vec![ab, bc, ca],
+        ]);
     }
     (positions, finer)
 }

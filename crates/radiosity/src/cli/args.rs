@@ -66,7 +66,8 @@ pub struct EstimateArgs {
 /// Where artifacts are kept.
 #[derive(Debug, Args)]
 pub struct CacheArgs {
-    /// Folder of cached form factors and solutions
+    /// Folder of cached form factors and solutions [default: cache in a checkout, else the
+    /// platform's cache folder]
     #[arg(long = "cache", value_name = "DIR")]
     pub folder: Option<PathBuf>,
     /// Compute everything, read and write no cached file
@@ -103,7 +104,7 @@ pub struct DisplayArgs {
     /// Exponent of the screen
     #[arg(long, value_name = "X", value_parser = parse_positive)]
     pub gamma: Option<f64>,
-    /// Folder for the pictures
+    /// Folder for the pictures [default: out]
     #[arg(long, short, value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// File formats of the pictures
@@ -113,7 +114,10 @@ pub struct DisplayArgs {
 
 /// `form-factors`.
 #[derive(Debug, Args)]
-#[allow(missing_docs, reason = "comments on flattened fields would replace help texts")]
+#[allow(
+    missing_docs,
+    reason = "comments on flattened fields would replace help texts"
+)]
 pub struct FormFactorsCommand {
     #[command(flatten)]
     pub scene: SceneArgs,
@@ -126,7 +130,10 @@ pub struct FormFactorsCommand {
 
 /// `solve`.
 #[derive(Debug, Args)]
-#[allow(missing_docs, reason = "comments on flattened fields would replace help texts")]
+#[allow(
+    missing_docs,
+    reason = "comments on flattened fields would replace help texts"
+)]
 pub struct SolveCommand {
     #[command(flatten)]
     pub scene: SceneArgs,
@@ -141,7 +148,10 @@ pub struct SolveCommand {
 
 /// `render` and `display`.
 #[derive(Debug, Args)]
-#[allow(missing_docs, reason = "comments on flattened fields would replace help texts")]
+#[allow(
+    missing_docs,
+    reason = "comments on flattened fields would replace help texts"
+)]
 pub struct DisplayCommand {
     #[command(flatten)]
     pub scene: SceneArgs,
@@ -155,7 +165,10 @@ pub struct DisplayCommand {
 
 /// `check`.
 #[derive(Debug, Args)]
-#[allow(missing_docs, reason = "comments on flattened fields would replace help texts")]
+#[allow(
+    missing_docs,
+    reason = "comments on flattened fields would replace help texts"
+)]
 pub struct CheckArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
@@ -265,7 +278,9 @@ fn parse_counts(text: &str) -> Result<(u32, u32), String> {
 fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let limits = 1..=1 << 16;
     match parse_counts(text) {
-        Ok((w, h)) if text.contains('x') && limits.contains(&w) && limits.contains(&h) => Ok((w, h)),
+        Ok((w, h)) if text.contains('x') && limits.contains(&w) && limits.contains(&h) => {
+            Ok((w, h))
+        }
         _ => Err("expected width and height between 1 and 65536, like 640x480".to_owned()),
     }
 }

@@ -7,8 +7,8 @@ mod site;
 pub(crate) mod terminal;
 
 pub use args::{
-    CacheArgs, CacheAction, CacheCommand, CheckArgs, Command, DisplayArgs, DisplayCommand, EstimateArgs,
-    FormFactorsCommand, SceneArgs, SolveArgs, SolveCommand,
+    CacheAction, CacheArgs, CacheCommand, CheckArgs, Command, DisplayArgs, DisplayCommand,
+    EstimateArgs, FormFactorsCommand, SceneArgs, SolveArgs, SolveCommand,
 };
 pub use run::run;
 pub use site::Site;

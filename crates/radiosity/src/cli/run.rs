@@ -41,7 +41,11 @@ pub fn run(command: &Command, site: &Site) -> ExitCode {
 fn form_factors(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
     let mut scene = site.load(&args.scene.scene)?;
     args.scene.apply(&mut scene);
-    let sources = if args.recompute { Sources::Computed } else { Sources::Cached };
+    let sources = if args.recompute {
+        Sources::Computed
+    } else {
+        Sources::Cached
+    };
     with_pipeline(&mut scene, &args.estimate, site, |pipeline, report, _| {
         let made = pipeline.form_factors(sources)?;
         report.form_factors(&made.origin, &made.rows, pipeline);
@@ -53,17 +57,22 @@ fn solve(args: &SolveCommand, site: &Site) -> Result<(), Error> {
     let mut scene = site.load(&args.scene.scene)?;
     args.scene.apply(&mut scene);
     args.solve.apply(&mut scene);
-    with_pipeline(&mut scene, &args.estimate, site, |pipeline, report, scene| {
-        let solved = pipeline.solution(Sources::Computed)?;
-        report.form_factors(&solved.form_factors, &solved.rows, pipeline);
-        report.solution(&solved.origin, &solved.solution);
-        if let Some(path) = &args.export {
-            let csv = radiosity_csv(scene, pipeline.mesh(), &solved.solution);
-            write(path, &csv)?;
-            report.output("export", path);
-        }
-        Ok(())
-    })
+    with_pipeline(
+        &mut scene,
+        &args.estimate,
+        site,
+        |pipeline, report, scene| {
+            let solved = pipeline.solution(Sources::Computed)?;
+            report.form_factors(&solved.form_factors, &solved.rows, pipeline);
+            report.solution(&solved.origin, &solved.solution);
+            if let Some(path) = &args.export {
+                let csv = radiosity_csv(scene, pipeline.mesh(), &solved.solution);
+                write(path, &csv)?;
+                report.output("export", path);
+            }
+            Ok(())
+        },
+    )
 }
 
 fn display(args: &DisplayCommand, site: &Site, sources: Sources) -> Result<(), Error> {
@@ -74,28 +83,35 @@ fn display(args: &DisplayCommand, site: &Site, sources: Sources) -> Result<(), E
     if scene.camera.is_none() {
         return Err(Error::NoCamera);
     }
-    with_pipeline(&mut scene, &args.estimate, site, |pipeline, report, scene| {
-        let solved = pipeline.solution(sources)?;
-        report.form_factors(&solved.form_factors, &solved.rows, pipeline);
-        report.solution(&solved.origin, &solved.solution);
-        let start = Instant::now();
-        let pictures = pipeline.pictures(&solved.solution)?;
-        let folder = args.display.output.as_ref().unwrap_or(&site.output);
-        let outputs = save(&pictures, scene, &args.display, folder)?;
-        report.display(DisplayReport {
-            seconds: start.elapsed().as_secs_f64(),
-        });
-        for (name, path) in outputs {
-            report.output(&name, &path);
-        }
-        Ok(())
-    })
+    with_pipeline(
+        &mut scene,
+        &args.estimate,
+        site,
+        |pipeline, report, scene| {
+            let solved = pipeline.solution(sources)?;
+            report.form_factors(&solved.form_factors, &solved.rows, pipeline);
+            report.solution(&solved.origin, &solved.solution);
+            let start = Instant::now();
+            let pictures = pipeline.pictures(&solved.solution)?;
+            let folder = args.display.output.as_ref().unwrap_or(&site.output);
+            let outputs = save(&pictures, scene, &args.display, folder)?;
+            report.display(DisplayReport {
+                seconds: start.elapsed().as_secs_f64(),
+            });
+            for (name, path) in outputs {
+                report.output(&name, &path);
+            }
+            Ok(())
+        },
+    )
 }
 
 fn check(args: &CheckArgs, site: &Site) -> Result<(), Error> {
     let mut scene = site.load(&args.scene.scene)?;
     args.scene.apply(&mut scene);
-    check_lines(&scene)?.iter().for_each(|line| println!("{line}"));
+    check_lines(&scene)?
+        .iter()
+        .for_each(|line| println!("{line}"));
     Ok(())
 }
 
@@ -139,7 +155,10 @@ fn save(
         error,
     })?;
     let mut outputs = BTreeMap::new();
-    for (kind, image) in [("constant", &pictures.constant), ("smooth", &pictures.smooth)] {
+    for (kind, image) in [
+        ("constant", &pictures.constant),
+        ("smooth", &pictures.smooth),
+    ] {
         for (index, format) in args.format.iter().enumerate() {
             let (label, ending) = match format {
                 FormatArg::Ppm => ("ppm", "ppm"),
@@ -148,7 +167,11 @@ fn save(
             };
             let path = folder.join(format!("{}-{kind}.{ending}", scene.name));
             write(&path, &encoded(image, &scene.image, *format))?;
-            let name = if index == 0 { kind.to_owned() } else { format!("{kind}_{label}") };
+            let name = if index == 0 {
+                kind.to_owned()
+            } else {
+                format!("{kind}_{label}")
+            };
             outputs.insert(name, path);
         }
     }

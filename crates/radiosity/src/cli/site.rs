@@ -69,7 +69,10 @@ impl Site {
         if names.is_empty() {
             format!("give the path of a scene file; there are none in {folder}")
         } else {
-            format!("give the path of a scene file, or a name: {}", names.join(", "))
+            format!(
+                "give the path of a scene file, or a name: {}",
+                names.join(", ")
+            )
         }
     }
 }

@@ -31,7 +31,9 @@ impl Terminal {
     }
 
     fn bar(&self) -> std::sync::MutexGuard<'_, Option<ProgressBar>> {
-        self.bar.lock().expect("nothing panics while it holds a bar")
+        self.bar
+            .lock()
+            .expect("nothing panics while it holds a bar")
     }
 }
 

@@ -1,0 +1,228 @@
+//! What pictures show: radiance in the right place, fronts only, no seams.
+
+use proptest::prelude::*;
+use radiosity_geometry::{Camera, DVec3, Divisions, Mesh, PolygonMesh, Shape, Surface, subdivide};
+use radiosity_renderer::{Fields, ImageParams, Pictures, render};
+use std::f32::consts::PI;
+
+fn cut(shapes: Vec<Shape>, divisions: u32) -> Mesh {
+    let surface = |shape| Surface {
+        shape,
+        divisions: Some(Divisions::uniform(divisions)),
+    };
+    let surfaces: Vec<Surface> = shapes.into_iter().map(surface).collect();
+    subdivide(&surfaces, Divisions::uniform(1)).unwrap()
+}
+
+/// The corners of a unit square around the origin in the plane z = 0, front towards +z.
+fn square() -> [DVec3; 4] {
+    [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]].map(|[x, y]| DVec3::new(x, y, 0.0))
+}
+
+fn two_triangles() -> Vec<Shape> {
+    let [a, b, c, d] = square();
+    vec![Shape::Triangle([a, b, c]), Shape::Triangle([c, d, a])]
+}
+
+/// The view of a square region of the plane z = 0 from above it, one sample a pixel.
+fn view(mesh: &Mesh, fields: &Fields<'_>, center: DVec3, height: f64, pixels: u32) -> Pictures {
+    let distance = 10.0;
+    let fov = 2.0 * (0.5 * height / distance).atan().to_degrees();
+    let from = center + distance * DVec3::Z;
+    let camera = Camera::new(from, DVec3::NEG_Z, DVec3::Y, fov, 0.0).unwrap();
+    let params = ImageParams {
+        width: pixels,
+        height: pixels,
+        subpixels: 1,
+        samples: 1,
+        ..ImageParams::default()
+    };
+    render(mesh, fields, &camera, &params, &|_| ())
+}
+
+/// Fields with equal materials everywhere.
+fn with_fields<T>(radiosity: &[[f32; 3]], f: impl FnOnce(&Fields<'_>) -> T) -> T {
+    let same = vec![[0.5; 3]; radiosity.len()];
+    f(&Fields {
+        emission: &same,
+        reflectance: &same,
+        radiosity,
+    })
+}
+
+#[test]
+fn radiance_is_radiosity_over_pi_on_fronts_and_nothing_on_backs() {
+    let [a, b, c, d] = square();
+    for (corners, expected) in [([a, b, c, d], 2.0 / PI), ([d, c, b, a], 0.0)] {
+        let mesh = cut(vec![Shape::Quad(corners)], 3);
+        let pictures = with_fields(&[[2.0; 3]; 9], |f| view(&mesh, f, DVec3::ZERO, 0.5, 4));
+        for picture in [&pictures.constant, &pictures.smooth] {
+            let off = |pixel: &[f32; 3]| pixel.iter().any(|x| (x - expected).abs() > 1e-6);
+            assert!(!picture.pixels.iter().any(off));
+        }
+    }
+}
+
+#[test]
+fn the_picture_is_upright_and_not_mirrored() {
+    let [a, b, c, d] = square();
+    let mesh = cut(vec![Shape::Quad([a, b, c, d])], 2);
+    // Cells in row order: (left, bottom), (left, top), (right, bottom), (right, top).
+    let radiosity = [1.0, 2.0, 3.0, 4.0].map(|x| [x * PI; 3]);
+    let picture = with_fields(&radiosity, |f| view(&mesh, f, DVec3::ZERO, 0.9, 40)).constant;
+    let at = |x: usize, y: usize| picture.pixels[y * 40 + x][0].round();
+    assert_eq!(
+        [at(5, 5), at(35, 5), at(5, 35), at(35, 35)],
+        [2.0, 4.0, 1.0, 3.0]
+    );
+}
+
+#[test]
+fn whatever_lies_before_the_near_distance_is_not_seen() {
+    let [a, b, c, d] = square();
+    let lid = [a, b, c, d].map(|p| p + 2.0 * DVec3::Z);
+    let mesh = cut(vec![Shape::Quad([a, b, c, d]), Shape::Quad(lid)], 1);
+    let radiosity = [[PI; 3], [5.0 * PI; 3]];
+    let look = |near| {
+        let from = 10.0 * DVec3::Z;
+        let camera = Camera::new(from, DVec3::NEG_Z, DVec3::Y, 2.0, near).unwrap();
+        let params = ImageParams {
+            width: 1,
+            height: 1,
+            ..ImageParams::default()
+        };
+        with_fields(&radiosity, |f| render(&mesh, f, &camera, &params, &|_| ()))
+            .smooth
+            .pixels[0][0]
+    };
+    assert!((look(0.0) - 5.0).abs() < 1e-5);
+    assert!((look(9.0) - 1.0).abs() < 1e-5);
+}
+
+#[test]
+fn thread_counts_leave_no_trace() {
+    let mesh = cut(two_triangles(), 4);
+    let radiosity: Vec<[f32; 3]> = (0..32).map(|k| [k as f32, 1.0, 0.0]).collect();
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| with_fields(&radiosity, |f| view(&mesh, f, DVec3::ZERO, 1.0, 33)))
+    };
+    assert_eq!(with(1), with(3));
+}
+
+/// Smooth values just left and right of many points of a line, by looking at tiny regions.
+fn jumps_across(mesh: &Mesh, fields: &Fields<'_>, from: DVec3, to: DVec3) -> f32 {
+    let across = (to - from).cross(DVec3::Z).normalize();
+    let value = |at: DVec3| view(mesh, fields, at, 1e-9, 1).smooth.pixels[0][0];
+    let jump = |k: u32| {
+        let at = from.lerp(to, (f64::from(k) + 0.37) / 20.0);
+        (value(at + 1e-7 * across) - value(at - 1e-7 * across)).abs()
+    };
+    (0..20).map(jump).fold(0.0, f32::max)
+}
+
+/// Values up to 40 change by at most 40 per cell of size 1/8, so over a distance of 2e-7 by
+/// 1e-4 or less, and single precision adds as much; a seam would show jumps of order 1.
+const CONTINUOUS: f32 = 5e-4;
+
+#[test]
+fn no_seam_along_the_diagonal_of_two_triangles() {
+    let mesh = cut(two_triangles(), 8);
+    let radiosity: Vec<[f32; 3]> = (0..128).map(|k| [(k * k % 41) as f32; 3]).collect();
+    let [a, _, c, _] = square();
+    let jump = with_fields(&radiosity, |f| jumps_across(&mesh, f, a, c));
+    assert!(jump < CONTINUOUS, "{jump}");
+    let within = with_fields(&radiosity, |f| {
+        jumps_across(
+            &mesh,
+            f,
+            DVec3::new(-0.5, -0.0625, 0.0),
+            DVec3::new(0.5, -0.0625, 0.0),
+        )
+    });
+    assert!(within < CONTINUOUS, "{within}");
+}
+
+#[test]
+fn materials_and_creases_keep_their_edges() {
+    let mesh = cut(two_triangles(), 8);
+    let radiosity: Vec<[f32; 3]> = (0..128)
+        .map(|k| [if k < 64 { 1.0 } else { 9.0 }; 3])
+        .collect();
+    let reflectance: Vec<[f32; 3]> = (0..128)
+        .map(|k| [if k < 64 { 0.2 } else { 0.9 }; 3])
+        .collect();
+    let fields = Fields {
+        emission: &vec![[0.0; 3]; 128],
+        reflectance: &reflectance,
+        radiosity: &radiosity,
+    };
+    let [a, _, c, _] = square();
+    let jump = jumps_across(&mesh, &fields, a, c);
+    assert!((jump - 8.0 / PI).abs() < 1e-4, "{jump}");
+}
+
+/// A mesh of `2 n^2` triangles over the unit square, with vertices moved about and raised by at
+/// most `bump`.
+fn bumpy(n: u32, bump: f64) -> PolygonMesh {
+    let mut positions = Vec::new();
+    for i in 0..=n {
+        for j in 0..=n {
+            let noise = |k: u32| f64::from((i * 31 + j * 17 + k * 7) % 13) / 13.0 - 0.5;
+            let [x, y] = [i, j].map(|k| f64::from(k) / f64::from(n) - 0.5);
+            let inside = if i % n == 0 || j % n == 0 {
+                0.0
+            } else {
+                0.4 / f64::from(n)
+            };
+            positions.push(DVec3::new(
+                x + inside * noise(1),
+                y + inside * noise(2),
+                bump * noise(3),
+            ));
+        }
+    }
+    let at = |i: u32, j: u32| i * (n + 1) + j;
+    let mut faces = Vec::new();
+    for i in 0..n {
+        for j in 0..n {
+            faces.push(vec![at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+            faces.push(vec![at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+        }
+    }
+    PolygonMesh { positions, faces }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(16))]
+
+    /// Looking at two points 2e-7 apart anywhere on a smooth mesh never shows a jump.
+    #[test]
+    fn meshes_have_no_seams(x in -0.45f64..0.45, y in -0.45f64..0.45, angle in 0.0f64..6.3) {
+        let mesh = cut(vec![Shape::Mesh(bumpy(5, 0.01))], 1);
+        let radiosity: Vec<[f32; 3]> =
+            mesh.faces.iter().map(|f| [(f.input_index * 7 % 41) as f32; 3]).collect();
+        let from = DVec3::new(x, y, 0.0);
+        let to = from + 0.1 * DVec3::new(angle.cos(), angle.sin(), 0.0);
+        let jump = with_fields(&radiosity, |f| jumps_across(&mesh, f, from, to));
+        prop_assert!(jump < CONTINUOUS, "{jump}");
+    }
+
+    /// Constant fields stay constant under every interpolant.
+    #[test]
+    fn constants_are_shown_as_they_are(value in 0.1f32..10.0, n in 1u32..6) {
+        let [a, b, c, d] = square();
+        let shapes = [vec![Shape::Quad([a, b, c, d])], two_triangles(), vec![Shape::Mesh(bumpy(4, 0.02))]];
+        for shape in shapes {
+            let mesh = cut(shape, n);
+            let radiosity = vec![[value; 3]; mesh.patches.len()];
+            let pictures = with_fields(&radiosity, |f| view(&mesh, f, DVec3::ZERO, 0.6, 8));
+            for pixel in &pictures.smooth.pixels {
+                prop_assert!((pixel[0] * PI / value - 1.0).abs() < 1e-5);
+            }
+        }
+    }
+}
