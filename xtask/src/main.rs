@@ -19,7 +19,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Task {
     #[command(flatten)]
-    Radiosity(Command),
+    Radiosity(Box<Command>),
     /// Run everything that a change must pass: format, lints, docs, tests, a render
     Ci,
     /// Make a file of the checkout anew
@@ -39,7 +39,7 @@ enum Generated {
 fn main() -> ExitCode {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let root = root.canonicalize().unwrap_or(root);
-    // Shown paths are shorter, and user's relative paths mean the same, where we stand in it.
+    // Shown paths are shorter, and mean the same, where one stands in it.
     let root = match std::env::current_dir() {
         Ok(here) if here == root => Path::new("").to_owned(),
         _ => root,

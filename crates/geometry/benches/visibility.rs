@@ -83,7 +83,7 @@ fn visibility(criterion: &mut Criterion) {
     }
     let mesh = sphere(190);
     criterion.bench_function("build over 72,000 faces", |b| {
-        b.iter(|| Occluders::new(&mesh))
+        b.iter(|| Occluders::new(&mesh));
     });
 }
 

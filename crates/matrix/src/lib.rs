@@ -160,10 +160,10 @@ mod tests {
         fn entries_are_symmetric_and_sum_to_row_sums(size in 0usize..40) {
             let matrix = counting(size);
             let sums = matrix.row_sums();
-            for i in 0..size {
+            for (i, &sum) in sums.iter().enumerate() {
                 // Integers below 2^24: every sum is exact.
                 let direct: f64 = (0..size).map(|j| f64::from(matrix.get(i, j))).sum();
-                prop_assert_eq!(direct, sums[i]);
+                prop_assert_eq!(direct, sum);
                 for j in 0..size {
                     prop_assert_eq!(matrix.get(i, j), matrix.get(j, i));
                 }

@@ -24,6 +24,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod artifact;
 pub mod cli;
 mod error;
 mod export;
@@ -31,11 +32,15 @@ mod observer;
 mod pipeline;
 mod report;
 mod resources;
+mod rows;
+mod settings;
 
+pub use artifact::{Origin, Sources};
 pub use error::Error;
 pub use export::radiosity_csv;
 pub use observer::{Observer, Silent, Stage};
-pub use pipeline::{FormFactorsMade, Origin, Pipeline, RowSummary, Solved, Sources};
+pub use pipeline::{FormFactorsMade, Pipeline, Solved};
+pub use rows::RowSummary;
 
 pub use radiosity_cache as cache;
 pub use radiosity_form_factors as form_factors;

@@ -1,9 +1,11 @@
 //! What a run has to say, as lines for people and as JSON for scripts.
 
+use crate::artifact::Origin;
 use crate::cli::terminal::Terminal;
 use crate::error::Error;
-use crate::pipeline::{Origin, Pipeline, RowSummary};
+use crate::pipeline::Pipeline;
 use crate::resources::{Needs, bytes, grouped};
+use crate::rows::RowSummary;
 use radiosity_geometry::{Mesh, count_patches};
 use radiosity_scene::Scene;
 use radiosity_solver::{Energy, Solution};

@@ -7,9 +7,10 @@ use super::args::{
 use super::cache_folder;
 use super::site::Site;
 use super::terminal::Terminal;
+use crate::artifact::Sources;
 use crate::error::Error;
 use crate::export::radiosity_csv;
-use crate::pipeline::{Pipeline, Sources};
+use crate::pipeline::Pipeline;
 use crate::report::{DisplayReport, Report, check_lines};
 use radiosity_cache::{Store, replace_file};
 use radiosity_renderer::{Image, PictureFormat, Pictures, ToneMap, encode};

@@ -1,0 +1,96 @@
+//! How a stage comes by its artifact: from the cache, or by computing it.
+
+use crate::error::Error;
+use crate::observer::Observer;
+use radiosity_cache::{CacheError, Id, Miss, Store};
+use std::path::PathBuf;
+
+/// Whether a stage may take its result from the cache.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sources {
+    /// Take what is cached, compute what is not.
+    Cached,
+    /// Compute anew, and cache that.
+    Computed,
+}
+
+/// Where an artifact came from.
+#[derive(Clone, Debug)]
+pub struct Origin {
+    /// Why it was computed; `None` if it was cached.
+    pub computed_because: Option<String>,
+    /// Its file, if it is cached now.
+    pub file: Option<PathBuf>,
+    /// The size of its data.
+    pub bytes: u64,
+    /// What the stage took.
+    pub seconds: f64,
+}
+
+/// How one artifact is read, made and written.
+pub(crate) struct Recipe<R, C, W> {
+    /// Takes it from the cache.
+    pub(crate) read: R,
+    /// Makes it anew.
+    pub(crate) compute: C,
+    /// Puts it into the cache.
+    pub(crate) write: W,
+}
+
+/// Takes an artifact from the cache, or computes and caches it, one process at a time.
+/// A cache that cannot be written costs a note and nothing else.
+pub(crate) fn obtain<T>(
+    cache: Option<&Store>,
+    observer: &dyn Observer,
+    id: &Id<'_>,
+    sources: Sources,
+    recipe: Recipe<
+        impl Fn(&Store) -> Result<T, Miss>,
+        impl FnOnce() -> Result<T, Error>,
+        impl FnOnce(&Store, &T) -> Result<u64, CacheError>,
+    >,
+) -> Result<(T, Origin), Error> {
+    let Some(store) = cache else {
+        let reason = "caching is off".to_owned();
+        return Ok(((recipe.compute)()?, Origin::new(Some(reason), None)));
+    };
+    let path = store.path(id);
+    let look = || match sources {
+        Sources::Cached => (recipe.read)(store).map_err(|miss| miss.to_string()),
+        Sources::Computed => Err("asked for".to_owned()),
+    };
+    if let Ok(artifact) = look() {
+        return Ok((artifact, Origin::new(None, Some(path))));
+    }
+    let not_cached = |error: CacheError| {
+        observer.note(&format!("{error}; the {} will not be cached", id.stage));
+    };
+    let waiting = || {
+        let stage = id.stage;
+        observer.note(&format!(
+            "waiting for another process that makes the {stage}"
+        ));
+    };
+    let lock = store.lock(id, waiting).map_err(not_cached).ok();
+    // Whoever had the lock before may have made it meanwhile.
+    let reason = match look() {
+        Ok(artifact) => return Ok((artifact, Origin::new(None, Some(path)))),
+        Err(reason) => reason,
+    };
+    let artifact = (recipe.compute)()?;
+    let write = |_| (recipe.write)(store, &artifact).map_err(not_cached).ok();
+    let written = lock.as_ref().and_then(write);
+    let file = written.map(|_| path);
+    Ok((artifact, Origin::new(Some(reason), file)))
+}
+
+impl Origin {
+    fn new(computed_because: Option<String>, file: Option<PathBuf>) -> Origin {
+        Origin {
+            computed_because,
+            file,
+            bytes: 0,
+            seconds: 0.0,
+        }
+    }
+}
