@@ -16,6 +16,7 @@
 mod bounds;
 mod bvh;
 mod camera;
+mod check;
 mod locate;
 mod mesh;
 mod morton;
@@ -28,6 +29,7 @@ mod subdivide;
 
 pub use bounds::Aabb;
 pub use camera::{Camera, CameraError};
+pub use check::ShapeError;
 pub use glam::{DVec2, DVec3};
 pub use locate::Location;
 pub use mesh::{Face, FaceId, Grid, Mesh, Patch, SurfaceId};
@@ -35,5 +37,5 @@ pub use occluders::{Hit, Occluders, Sight};
 pub use polygon::Polygon;
 pub use polygon_mesh::PolygonMesh;
 pub use ray::Ray;
-pub use shape::{Shape, ShapeError};
+pub use shape::Shape;
 pub use subdivide::{Divisions, MAX_PATCHES, MeshError, Surface, count_patches, subdivide};

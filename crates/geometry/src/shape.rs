@@ -1,5 +1,6 @@
-//! The shapes a surface can have, and what makes them unusable.
+//! The shapes a surface can have.
 
+use crate::check::{ShapeError, check_quad, check_triangle};
 use crate::polygon::Polygon;
 use crate::polygon_mesh::PolygonMesh;
 use glam::DVec3;
@@ -23,63 +24,6 @@ pub enum Shape {
     /// Many faces that are one surface.
     Mesh(PolygonMesh),
 }
-
-/// Why a shape cannot be used.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum ShapeError {
-    /// A coordinate is NaN or infinite.
-    #[error("has a coordinate that is not a finite number")]
-    NotFinite,
-    /// An edge has length zero, or the edges are parallel.
-    #[error("has no area: an edge has length zero or the edges are parallel")]
-    NoArea,
-    /// The four corners of a quadrilateral do not lie in one plane.
-    #[error(
-        "is not planar: a corner lies {deviation:.3e} off the plane of the others \
-         (at most {PLANARITY:.0e} of the diagonal is allowed); use two triangles"
-    )]
-    NotPlanar {
-        /// Distance of the corners from the mean plane, relative to the longer diagonal.
-        deviation: f64,
-    },
-    /// A quadrilateral has a reflex corner or crosses itself.
-    #[error("is not convex: order its corners around it, or use two triangles")]
-    NotConvex,
-    /// A mesh has no faces.
-    #[error("has no faces")]
-    Empty,
-    /// A face of a mesh names a corner that does not exist.
-    #[error("face {face} names corner {index}, but there are only {count} (counted from 0)")]
-    IndexOutOfRange {
-        /// The face, counted from 0.
-        face: usize,
-        /// The index it names.
-        index: u32,
-        /// How many positions the mesh has.
-        count: usize,
-    },
-    /// A face of a mesh has neither three nor four corners.
-    #[error("face {face} has {corners} corners; three or four are allowed")]
-    CornerCount {
-        /// The face, counted from 0.
-        face: usize,
-        /// How many corners it has.
-        corners: usize,
-    },
-    /// A face of a mesh is degenerate.
-    #[error("face {face} (counted from 0) has no area; remove it from the mesh")]
-    FaceWithoutArea {
-        /// The face, counted from 0.
-        face: usize,
-    },
-}
-
-/// How far a corner of a planar quadrilateral may lie off its plane, relative to the longer
-/// diagonal: what the six digits of a typical mesh file leave.
-pub(crate) const PLANARITY: f64 = 1e-5;
-
-/// Sine of the angle below which edges count as parallel.
-const PARALLEL: f64 = 1e-9;
 
 impl Shape {
     /// The undivided planar polygons, in input order, each with the index of the input face
@@ -107,44 +51,4 @@ impl Shape {
             Shape::Mesh(mesh) => mesh.polygons(),
         }
     }
-}
-
-pub(crate) fn check_triangle([a, b, c]: [DVec3; 3]) -> Result<(), ShapeError> {
-    if ![a, b, c].iter().all(|p| p.is_finite()) {
-        return Err(ShapeError::NotFinite);
-    }
-    let (ab, ac) = (b - a, c - a);
-    let longest = ab.length().max(ac.length()).max((c - b).length());
-    let height = ab.cross(ac).length() / longest;
-    // The height is NaN where all corners are equal; no comparison holds for it.
-    if height > PARALLEL * longest {
-        Ok(())
-    } else {
-        Err(ShapeError::NoArea)
-    }
-}
-
-pub(crate) fn check_quad(corners: &[DVec3; 4]) -> Result<(), ShapeError> {
-    if !corners.iter().all(|p| p.is_finite()) {
-        return Err(ShapeError::NotFinite);
-    }
-    let [a, b, c, d] = *corners;
-    let diagonal = (c - a).length().max((d - b).length());
-    let area_vector = 0.5 * (c - a).cross(d - b);
-    // Twisted and reflex quads are told from flat slivers by their triangles' areas.
-    let triangles = [[a, b, c], [b, c, d], [c, d, a], [d, a, b]];
-    let has_area =
-        |[p, q, r]: [DVec3; 3]| (q - p).cross(r - p).length() > PARALLEL * diagonal * diagonal;
-    if !triangles.into_iter().all(has_area) {
-        return Err(ShapeError::NoArea);
-    }
-    let turns = triangles.map(|[p, q, r]| (q - p).cross(r - q).dot(area_vector) > 0.0);
-    if turns != [true; 4] {
-        return Err(ShapeError::NotConvex);
-    }
-    let deviation = 0.5 * ((b - a).dot(area_vector.normalize())).abs() / diagonal;
-    if deviation > PLANARITY {
-        return Err(ShapeError::NotPlanar { deviation });
-    }
-    Ok(())
 }

@@ -1,9 +1,10 @@
 //! Stage 1: surfaces into patches.
 
+use crate::check::ShapeError;
 use crate::mesh::{Face, FaceId, Grid, Mesh, Patch, SurfaceId};
 use crate::morton;
 use crate::polygon::Polygon;
-use crate::shape::{Shape, ShapeError};
+use crate::shape::Shape;
 
 /// How finely a surface is cut.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,19 +2,9 @@
 
 use crate::Rgb;
 use crate::bicubic::bicubic;
+use crate::fields::Fields;
 use crate::vertex::VertexValues;
 use radiosity_geometry::{Grid, Location, Mesh};
-
-/// What is known of each patch; all slices are indexed by patch.
-#[derive(Clone, Copy, Debug)]
-pub struct Fields<'a> {
-    /// Radiant exitance the patch emits itself, W/m^2.
-    pub emission: &'a [Rgb],
-    /// Diffuse reflectance, in [0, 1].
-    pub reflectance: &'a [Rgb],
-    /// Radiosity, W/m^2.
-    pub radiosity: &'a [Rgb],
-}
 
 /// Degrees between normals below which neighbouring patches are parts of one smooth surface.
 pub const DEFAULT_CREASE_ANGLE: f64 = 30.0;

@@ -9,6 +9,7 @@
 
 mod bicubic;
 mod encode;
+mod fields;
 mod filter;
 mod image;
 mod interpolate;
@@ -17,8 +18,9 @@ mod tone;
 mod vertex;
 
 pub use encode::{PictureFormat, encode};
+pub use fields::Fields;
 pub use image::Image;
-pub use interpolate::{DEFAULT_CREASE_ANGLE, Fields};
+pub use interpolate::DEFAULT_CREASE_ANGLE;
 pub use render::{ImageParams, Pictures, render};
 pub use tone::{Picture, ToneMap};
 

@@ -1,8 +1,9 @@
 //! Stage 4: rays from the camera.
 
+use crate::fields::Fields;
 use crate::filter::SubpixelTents;
 use crate::image::Image;
-use crate::interpolate::{DEFAULT_CREASE_ANGLE, Fields, Interpolant};
+use crate::interpolate::{DEFAULT_CREASE_ANGLE, Interpolant};
 use crate::{Rgb, add_scaled};
 use radiosity_geometry::{Camera, Mesh, Occluders};
 use rand::SeedableRng;

@@ -10,7 +10,7 @@
 //! Two patches belong together at a vertex if they have equal emission and reflectance and
 //! their normals differ by less than the crease angle, directly or by way of others there.
 
-use crate::interpolate::Fields;
+use crate::fields::Fields;
 use crate::{Rgb, add_scaled};
 use radiosity_geometry::{DVec2, DVec3, Mesh, Polygon};
 use std::collections::HashMap;

@@ -20,6 +20,7 @@ mod values;
 mod tests;
 
 pub use material::Material;
-pub use scene::{Scene, Surface, load, parse};
+pub use scene::{Scene, load, parse};
 pub use settings::{FormFactorSettings, ImageSettings, Mode, SolverSettings};
 pub use source::SceneError;
+pub use surface::Surface;

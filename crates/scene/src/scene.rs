@@ -5,7 +5,7 @@ use crate::file::SceneFile;
 use crate::material::{Material, materials};
 use crate::settings::{FormFactorSettings, ImageSettings, SolverSettings};
 use crate::source::{Complaint, SceneError, Source};
-use crate::surface::Context;
+use crate::surface::{Context, Surface};
 use radiosity_geometry::{self as geometry, Camera, Divisions, SurfaceId};
 use std::path::Path;
 
@@ -30,16 +30,6 @@ pub struct Scene {
     pub form_factors: FormFactorSettings,
     /// The solver stage.
     pub solver: SolverSettings,
-}
-
-/// A surface, apart from its shape.
-#[derive(Clone, Debug)]
-pub struct Surface {
-    /// Its name, unique in the scene.
-    pub name: String,
-    /// Index into the scene's materials, for each face in input order; just one for a surface
-    /// of one face.
-    pub materials: Vec<usize>,
 }
 
 impl Scene {

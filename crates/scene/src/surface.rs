@@ -2,7 +2,6 @@
 
 use crate::material::Material;
 use crate::obj;
-use crate::scene::Surface;
 use crate::source::{Complaint, SceneError, Source};
 use crate::values::{Counts, Vector, divisions, require, vector};
 use radiosity_geometry::{self as geometry, DVec3, Divisions, PolygonMesh, Shape};
@@ -10,6 +9,16 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 use toml::Spanned;
+
+/// A surface, apart from its shape.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// Its name, unique in the scene.
+    pub name: String,
+    /// Index into the scene's materials, for each face in input order; just one for a surface
+    /// of one face.
+    pub materials: Vec<usize>,
+}
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -268,6 +268,23 @@ fn shipped_scenes_are_good_and_open_with_a_comment() {
     }
 }
 
+/// The scene in the README, without its mesh.
+#[test]
+fn the_readme_tells_the_truth() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md");
+    let readme = std::fs::read_to_string(path).unwrap();
+    let scene = readme
+        .split("```toml\n")
+        .nth(1)
+        .unwrap()
+        .split("```")
+        .next()
+        .unwrap();
+    let without_mesh = scene.rsplit_once("[[surfaces]]").unwrap().0;
+    let scene = parse_text(without_mesh).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(scene.surfaces.len(), 2);
+}
+
 proptest! {
     /// Whatever a damaged file says: an error or a scene, never a panic.
     #[test]

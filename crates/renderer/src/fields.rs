@@ -1,0 +1,14 @@
+//! What is known of the light, patch by patch.
+
+use crate::Rgb;
+
+/// What is known of each patch; all slices are indexed by patch.
+#[derive(Clone, Copy, Debug)]
+pub struct Fields<'a> {
+    /// Radiant exitance the patch emits itself, W/m^2.
+    pub emission: &'a [Rgb],
+    /// Diffuse reflectance, in [0, 1].
+    pub reflectance: &'a [Rgb],
+    /// Radiosity, W/m^2.
+    pub radiosity: &'a [Rgb],
+}
