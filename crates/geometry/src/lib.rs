@@ -25,6 +25,7 @@ mod polygon;
 mod polygon_mesh;
 mod ray;
 mod shape;
+mod slabs;
 mod subdivide;
 
 pub use bounds::Aabb;
