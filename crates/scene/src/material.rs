@@ -13,9 +13,13 @@ pub struct Material {
     pub name: String,
     /// Diffuse reflectance per channel, in [0, 1].
     pub reflectance: [f64; 3],
-    /// Radiant exitance that the surface emits itself, per channel, W/m^2, >= 0.
+    /// Radiant exitance that the surface emits itself, per channel, W/m^2: 0, or
+    /// between 1e-30 and 1e30.
     pub emission: [f64; 3],
 }
+
+/// What radiosities in single precision can follow.
+const EMISSION: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -33,9 +37,15 @@ pub(crate) fn materials(
         let what = format!("the reflectance of `{name}`");
         require(source, &table.reflectance, share, &what, "in [0, 1]")?;
         if let Some(emission) = &table.emission {
-            let power = |c: &Color| c.0.iter().all(|&x| x >= 0.0 && x.is_finite());
+            let power = |c: &Color| c.0.iter().all(|x| *x == 0.0 || EMISSION.contains(x));
             let what = format!("the emission of `{name}`");
-            require(source, emission, power, &what, "finite and not negative")?;
+            require(
+                source,
+                emission,
+                power,
+                &what,
+                "0, or between 1e-30 and 1e30",
+            )?;
         }
         Ok(Material {
             reflectance: table.reflectance.get_ref().0,

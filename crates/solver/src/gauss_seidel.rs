@@ -46,7 +46,8 @@ pub struct Solution {
 pub struct Convergence {
     /// Whether the tolerance was reached within the allowed sweeps.
     pub converged: bool,
-    /// Relative residual after each sweep.
+    /// Relative residual after each sweep, in `f64`. Storing radiosities as `f32` rounds the last
+    /// of them by up to 6e-8 of their size.
     pub residuals: Vec<f64>,
     /// The power balance of the solution.
     pub energy: Energy,
@@ -92,18 +93,16 @@ pub fn solve(
     params: &Params,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Solution, SolveError> {
-    let norm_of_emission = system.norm(system.emission.iter().copied());
+    check_finite(system)?;
     let mut iteration = Iteration::start(system);
-    let mut residuals = Vec::new();
+    let norm_of_emission = system.norm(iteration.emission.iter().copied().map(rgb));
+    let mut residuals: Vec<f64> = Vec::new();
     let mut converged = norm_of_emission == 0.0;
     while !converged && residuals.len() < params.max_sweeps as usize {
         let residual = iteration.sweep() / norm_of_emission;
         progress(residual);
         residuals.push(residual);
         converged = residual <= params.tolerance;
-        if !residual.is_finite() {
-            return Err(explain_non_finite(system));
-        }
         if is_growing(&residuals) {
             check_spectral_radius(system)?;
         }
@@ -111,7 +110,7 @@ pub fn solve(
     if !converged {
         check_spectral_radius(system)?;
     }
-    let radiosity: Vec<Rgb> = iteration.x.iter().copied().map(rgb).collect();
+    let radiosity: Vec<Rgb> = iteration.radiosity();
     let report = Convergence {
         converged,
         residuals,
@@ -126,6 +125,10 @@ pub fn solve(
 
 struct Iteration<'a> {
     system: &'a System<'a>,
+    /// The largest emission. Everything here is in units of it, so that no square of an
+    /// ordinary number overflows or vanishes.
+    unit: f64,
+    emission: Vec<Lanes>,
     /// The current radiosities.
     x: Vec<Lanes>,
     /// `sum_{j > i} S_ij x_j` for the values of the last sweep.
@@ -138,14 +141,24 @@ impl<'a> Iteration<'a> {
     fn start(system: &'a System<'a>) -> Iteration<'a> {
         let total = system.total_area();
         let gain = |(&rho, &area): (&Rgb, &f64)| lanes(rho.map(|rho| rho * total / area));
-        let x: Vec<Lanes> = system.emission.iter().copied().map(lanes).collect();
+        let largest = system
+            .emission
+            .iter()
+            .flatten()
+            .copied()
+            .fold(0.0, f64::max);
+        let unit = if largest > 0.0 { largest } else { 1.0 };
+        let in_units = |e: &Rgb| lanes(e.map(|channel| channel / unit));
+        let emission: Vec<Lanes> = system.emission.iter().map(in_units).collect();
         let mut below = vec![[0.0; 4]; system.size()];
         for (i, row) in system.exchange.rows() {
-            scatter(row, &x[i], &mut below);
+            scatter(row, &emission[i], &mut below);
         }
         Iteration {
             system,
-            x,
+            unit,
+            x: emission.clone(),
+            emission,
             below,
             gain: system
                 .reflectance
@@ -164,9 +177,8 @@ impl<'a> Iteration<'a> {
             for (&s, x_j) in row.iter().zip(&self.x) {
                 add_scaled(&mut sum, f64::from(s), x_j);
             }
-            let emission = lanes(self.system.emission[i]);
             for (c, x_i) in self.x[i].iter_mut().enumerate() {
-                *x_i = emission[c] + self.gain[i][c] * sum[c];
+                *x_i = self.emission[i][c] + self.gain[i][c] * sum[c];
             }
             scatter(row, &self.x[i], &mut below_new);
         }
@@ -178,6 +190,11 @@ impl<'a> Iteration<'a> {
         self.below = below_new;
         norm
     }
+
+    fn radiosity(&self) -> Vec<Rgb> {
+        let in_watts = |&x: &Lanes| rgb(x).map(|channel| channel * self.unit);
+        self.x.iter().map(in_watts).collect()
+    }
 }
 
 /// Adds `S_ij x_i` to the sums of all rows `j` above row `i`.
@@ -187,11 +204,15 @@ fn scatter(row: &[f32], x_i: &Lanes, below: &mut [Lanes]) {
     }
 }
 
+/// Whether the residual grew over several sweeps, looked at once every few of them, or is so
+/// large that it is no number any more.
 fn is_growing(residuals: &[f64]) -> bool {
-    residuals.len().is_multiple_of(SUSPICIOUS_GROWTH)
-        && residuals
-            .last_chunk::<SUSPICIOUS_GROWTH>()
-            .is_some_and(|last| last.is_sorted() && last[0] < last[SUSPICIOUS_GROWTH - 1])
+    let Some(last) = residuals.last_chunk::<SUSPICIOUS_GROWTH>() else {
+        return false;
+    };
+    let grew = last.is_sorted() && last[0] < last[SUSPICIOUS_GROWTH - 1];
+    let looked_at = residuals.len().is_multiple_of(SUSPICIOUS_GROWTH);
+    looked_at && grew || !last[SUSPICIOUS_GROWTH - 1].is_finite()
 }
 
 fn check_spectral_radius(system: &System<'_>) -> Result<(), SolveError> {
@@ -214,17 +235,14 @@ fn check_spectral_radius(system: &System<'_>) -> Result<(), SolveError> {
     })
 }
 
-fn explain_non_finite(system: &System<'_>) -> SolveError {
+fn check_finite(system: &System<'_>) -> Result<(), SolveError> {
     let sums = system.exchange.row_sums();
     let is_bad = |&i: &usize| {
         let finite = |rgb: Rgb| rgb.iter().all(|c| c.is_finite());
         !(sums[i].is_finite() && finite(system.emission[i]) && finite(system.reflectance[i]))
     };
     match (0..system.size()).find(is_bad) {
-        Some(patch) => SolveError::NotFinite { patch },
-        None => SolveError::Diverges {
-            spectral_radius: f64::INFINITY,
-            worst_patches: Vec::new(),
-        },
+        Some(patch) => Err(SolveError::NotFinite { patch }),
+        None => Ok(()),
     }
 }

@@ -151,6 +151,70 @@ fn barely_diverging_systems_are_caught_at_the_sweep_limit() {
     }
 }
 
+/// Two plates that see each other alone: the eigenvalues come in pairs of either sign.
+fn plates(factor: f32, reflectances: [f64; 2]) -> Case {
+    Case {
+        exchange: SymmetricMatrix::new(2, vec![0.5 * factor]).unwrap(),
+        areas: vec![1.0; 2],
+        emission: vec![[1.0; 3]; 2],
+        reflectance: reflectances.map(|rho| [rho; 3]).to_vec(),
+    }
+}
+
+/// The spectral radius is F sqrt(rho_1 rho_2), whatever its sign does.
+#[test]
+fn plates_diverge_exactly_when_they_must() {
+    let error = solve(
+        &plates(11.0, [1.0, 0.01]).system(),
+        &Params::default(),
+        &mut |_| (),
+    );
+    let Err(SolveError::Diverges {
+        spectral_radius,
+        worst_patches,
+    }) = error
+    else {
+        panic!("a radius of 1.1 diverges");
+    };
+    assert!((spectral_radius - 1.1).abs() < 1e-6);
+    assert_eq!(worst_patches, [0, 1]);
+    let stopped_early = Params {
+        max_sweeps: 2,
+        ..Params::default()
+    };
+    let fine = plates(6.3, [1.0, 0.01]);
+    let report = solve(&fine.system(), &stopped_early, &mut |_| ())
+        .unwrap()
+        .report;
+    assert!(!report.converged);
+    assert!(fine.solve().report.converged);
+}
+
+#[test]
+fn a_quick_explosion_is_explained_too() {
+    let error = solve(
+        &plates(1e9, [1.0, 1.0]).system(),
+        &Params::default(),
+        &mut |_| (),
+    );
+    assert!(
+        matches!(error, Err(SolveError::Diverges { .. })),
+        "{error:?}"
+    );
+}
+
+/// Powers far from 1, whose squares a double cannot hold.
+#[test]
+fn units_do_not_matter() {
+    for unit in [1e-170, 1e30, 1e200] {
+        let mut case = Case::uniform_enclosure(5, [unit; 3], [0.5; 3]);
+        case.emission[0] = [0.0; 3];
+        let report = case.solve().report;
+        assert!(report.converged && report.residuals.len() > 3, "{unit}");
+        assert!(report.energy.imbalance() < 1e-5);
+    }
+}
+
 #[test]
 fn numbers_that_are_not_finite_are_traced_to_their_patch() {
     let mut case = Case::uniform_enclosure(5, [1.0; 3], [0.5; 3]);
