@@ -16,7 +16,8 @@ pub enum Divisions {
         /// Cells along edge b.
         b: u32,
     },
-    /// As few cells as keep every patch edge at most this long, in scene units.
+    /// As few cells as keep every patch edge at most this long, in scene units. Faces of meshes
+    /// take the next power of two, so that neighbours of different size fit together.
     MaxEdge(f64),
 }
 
@@ -111,7 +112,7 @@ fn uncut_faces(surfaces: &[Surface], default: Divisions) -> Result<Vec<Face>, Me
         for (input_index, polygon) in ordered_polygons(id, &surface.shape)? {
             faces.push(Face {
                 normal: polygon.normal(),
-                grid: grid(id, &polygon, divisions)?,
+                grid: grid(id, surface, &polygon, divisions)?,
                 polygon,
                 surface: id,
                 input_index,
@@ -148,27 +149,42 @@ fn ordered_polygons(surface: SurfaceId, shape: &Shape) -> Result<Vec<(u32, Polyg
     Ok(order.into_iter().map(|k| polygons[k]).collect())
 }
 
-fn grid(surface: SurfaceId, polygon: &Polygon, divisions: Divisions) -> Result<Grid, MeshError> {
+fn grid(
+    id: SurfaceId,
+    surface: &Surface,
+    polygon: &Polygon,
+    divisions: Divisions,
+) -> Result<Grid, MeshError> {
     match divisions {
         Divisions::Count { a: 0, .. } | Divisions::Count { b: 0, .. } => {
-            Err(MeshError::NoDivisions { surface })
+            Err(MeshError::NoDivisions { surface: id })
         }
         Divisions::Count { a, b } if polygon.is_triangle() => {
             if a != b {
-                return Err(MeshError::TwoCountsOnTriangle { surface, a, b });
+                return Err(MeshError::TwoCountsOnTriangle { surface: id, a, b });
             }
             Ok(Grid::Triangle { n: a })
         }
         Divisions::Count { a, b } => Ok(Grid::Quad { a, b }),
-        Divisions::MaxEdge(length) if length > 0.0 => Ok(grid_by_length(polygon, length)),
-        Divisions::MaxEdge(_) => Err(MeshError::NoDivisions { surface }),
+        Divisions::MaxEdge(length) if length > 0.0 => {
+            let is_mesh = matches!(surface.shape, Shape::Mesh(_));
+            Ok(grid_by_length(polygon, length, is_mesh))
+        }
+        Divisions::MaxEdge(_) => Err(MeshError::NoDivisions { surface: id }),
     }
 }
 
-fn grid_by_length(polygon: &Polygon, max_edge: f64) -> Grid {
-    // An edge of exactly n lengths, up to rounding, takes n cells. Saturating is harmless:
-    // such counts are refused as too many patches.
-    let count = |length: f64| (length / max_edge * (1.0 - 1e-12)).ceil().max(1.0) as u32;
+fn grid_by_length(polygon: &Polygon, max_edge: f64, powers_of_two: bool) -> Grid {
+    let count = |length: f64| {
+        // An edge of exactly n lengths, up to rounding, takes n cells. Saturating is harmless:
+        // such counts are refused as too many patches.
+        let cells = (length / max_edge * (1.0 - 1e-12)).ceil().max(1.0) as u32;
+        if powers_of_two {
+            cells.checked_next_power_of_two().unwrap_or(u32::MAX)
+        } else {
+            cells
+        }
+    };
     if polygon.is_triangle() {
         return Grid::Triangle {
             n: count(polygon.longest_edge()),

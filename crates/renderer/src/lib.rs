@@ -11,6 +11,7 @@ mod bicubic;
 mod encode;
 mod fields;
 mod filter;
+mod hanging;
 mod image;
 mod interpolate;
 mod render;

@@ -1,18 +1,22 @@
 //! Smooth interpolation on triangles and meshes: values at vertices, shared by all patches that
 //! meet there and belong together, and linear (bilinear on quads) between them. Continuous
-//! across all edges between patches that belong together.
+//! across all edges between patches that belong together, also where neighbouring faces are cut
+//! into different numbers of patches ([`crate::hanging`]); only vertices in the middle of
+//! another face's edge, a fault of the mesh, leave a seam.
 //!
 //! A vertex first has the average of its patches' values, weighted by their angles there
 //! (Thuermer & Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998). That blurs:
 //! the mean of a patch's vertices is no longer the patch's value. What is missing is averaged in
-//! the same way and added back, [`SHARPENING`] times (Van Cittert's iteration, 1931).
+//! the same way and added back, [`SHARPENING`] times (Van Cittert's iteration, 1931), but never
+//! beyond the values of the patches that meet at the vertex.
 //!
 //! Two patches belong together at a vertex if they have equal emission and reflectance and
 //! their normals differ by less than the crease angle, directly or by way of others there.
 
 use crate::fields::Fields;
+use crate::hanging::{Hanging, hanging_vertices};
 use crate::{Rgb, add_scaled};
-use radiosity_geometry::{DVec2, DVec3, Mesh, Polygon};
+use radiosity_geometry::{Aabb, DVec2, DVec3, Mesh, Polygon};
 use std::collections::HashMap;
 
 /// Values at the corners of patches.
@@ -24,11 +28,13 @@ pub(crate) struct VertexValues {
 
 /// Rounds of sharpening. Each one restores more of the contrast that averaging loses, and more
 /// of the noise of single patches.
-const SHARPENING: usize = 2;
+const SHARPENING: usize = 3;
 
-/// Positions closer than this, relative to the scene, are one vertex: what the digits of mesh
-/// files and the rounding of subdivision leave.
+/// Positions closer than this, relative to the scene's extent, are one vertex: what the digits
+/// of mesh files leave.
 const RELATIVE_WELD_DISTANCE: f64 = 1e-7;
+/// And closer than this, relative to the largest coordinate: the rounding of subdivision.
+const COORDINATE_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// A patch at a vertex.
 #[derive(Clone, Copy)]
@@ -51,17 +57,26 @@ impl VertexValues {
                 corners[corner.patch][corner.index] = id as u32;
             }
         }
+        let hanging = hanging_vertices(mesh, &corners);
+        let averages = vertices.iter().map(|v| average(v, fields.radiosity));
         let mut result = VertexValues {
-            values: vertices
-                .iter()
-                .map(|v| average(v, fields.radiosity))
-                .collect(),
+            values: averages.collect(),
             corners,
         };
+        result.tie(&hanging);
         for _ in 0..SHARPENING {
             result.sharpen(mesh, fields, &vertices);
+            result.tie(&hanging);
         }
         result
+    }
+
+    /// Puts hanging vertices on the line between their ends.
+    fn tie(&mut self, hanging: &[Hanging]) {
+        for &Hanging { vertex, ends, t } in hanging {
+            let [a, b] = ends.map(|end| self.values[end as usize]);
+            self.values[vertex as usize] = std::array::from_fn(|c| (1.0 - t) * a[c] + t * b[c]);
+        }
     }
 
     fn sharpen(&mut self, mesh: &Mesh, fields: &Fields<'_>, vertices: &[Vec<Corner>]) {
@@ -78,6 +93,13 @@ impl VertexValues {
         let missing: Vec<Rgb> = (0..mesh.patches.len()).map(missing).collect();
         for (value, vertex) in self.values.iter_mut().zip(vertices) {
             add_scaled(value, 1.0, average(vertex, &missing));
+            for (c, channel) in value.iter_mut().enumerate() {
+                let around = vertex.iter().map(|k| fields.radiosity[k.patch][c]);
+                let (low, high) = around.fold((f32::MAX, 0.0), |(low, high): (f32, f32), b| {
+                    (low.min(b), high.max(b))
+                });
+                *channel = channel.clamp(low, high);
+            }
         }
     }
 
@@ -100,10 +122,12 @@ impl VertexValues {
 
 /// The corners of all patches, by the vertex they share.
 fn weld(mesh: &Mesh) -> Vec<Vec<Corner>> {
-    let coordinates = mesh.faces.iter().flat_map(|f| f.polygon.corners());
-    let largest = coordinates.fold(0.0, |max: f64, p| max.max(p.abs().max_element()));
+    let corners = mesh.faces.iter().flat_map(|f| f.polygon.corners());
+    let bounds = Aabb::around(corners.copied());
+    let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
     let mut vertices = Vertices {
-        distance: RELATIVE_WELD_DISTANCE * largest,
+        distance: (RELATIVE_WELD_DISTANCE * bounds.extent().max_element())
+            .max(COORDINATE_ROUNDING * largest),
         cells: HashMap::new(),
         positions: Vec::new(),
     };

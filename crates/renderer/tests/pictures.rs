@@ -146,6 +146,73 @@ fn no_seam_along_the_diagonal_of_two_triangles() {
     assert!(within < CONTINUOUS, "{within}");
 }
 
+/// Faces of one mesh, cut into different numbers of patches along the edges they share.
+#[test]
+fn no_seam_where_neighbours_are_cut_differently() {
+    let [a, b, c, d] = [0, 1, 2, 3];
+    let corners = square().into_iter();
+    let beside = [[1.2, 0.0], [0.5, -1.4], [1.5, -0.5], [1.5, 0.5]];
+    let beside = beside.map(|[x, y]| DVec3::new(x, y, 0.0));
+    let mesh = |faces: Vec<Vec<u32>>, divisions| {
+        let positions = corners.clone().chain(beside).collect();
+        let shape = Shape::Mesh(PolygonMesh { positions, faces });
+        let surface = Surface {
+            shape,
+            divisions: Some(divisions),
+        };
+        subdivide(&[surface], Divisions::uniform(1)).unwrap()
+    };
+    // Four cells on the quad and eight on the triangle below it; six on the one quad and four
+    // on the other.
+    let by_length = mesh(
+        vec![vec![a, b, c, d], vec![b, 4, c], vec![a, 5, b]],
+        Divisions::MaxEdge(0.26),
+    );
+    let by_count = mesh(
+        vec![vec![a, b, c, d], vec![c, b, 6, 7]],
+        Divisions::Count { a: 4, b: 6 },
+    );
+    let [a, b, c, _] = square();
+    for (mesh, from, to) in [(&by_length, a, b), (&by_length, b, c), (&by_count, b, c)] {
+        let value = |k: usize| [(k * k % 41) as f32; 3];
+        let radiosity: Vec<[f32; 3]> = (0..mesh.patches.len()).map(value).collect();
+        let jump = with_fields(&radiosity, |f| jumps_across(mesh, f, from, to));
+        assert!(jump < CONTINUOUS, "{jump}");
+    }
+}
+
+/// Sharpening must not overshoot: beside a strong gradient it would show negative light.
+#[test]
+fn smooth_values_stay_between_those_of_the_patches() {
+    let mesh = cut(two_triangles(), 8);
+    let value = |k: usize| if k % 9 < 2 { 30.0 } else { 1.0 };
+    let radiosity: Vec<[f32; 3]> = (0..128).map(|k| [value(k); 3]).collect();
+    let smooth = with_fields(&radiosity, |f| view(&mesh, f, DVec3::ZERO, 0.98, 60)).smooth;
+    for pixel in &smooth.pixels {
+        let shown = pixel[0] * PI;
+        assert!((1.0 - 1e-5..=30.0 + 1e-4).contains(&shown), "{shown}");
+    }
+}
+
+/// A scene far from the origin, as maps give them, is the same scene.
+#[test]
+fn shading_does_not_depend_on_where_the_scene_is() {
+    let radiosity: Vec<[f32; 3]> = (0..128).map(|k| [(k * k % 41) as f32; 3]).collect();
+    let smooth = |shift: DVec3| {
+        let moved = |shape| match shape {
+            Shape::Triangle(corners) => Shape::Triangle(corners.map(|p| p + shift)),
+            _ => unreachable!(),
+        };
+        let mesh = cut(two_triangles().into_iter().map(moved).collect(), 8);
+        with_fields(&radiosity, |f| view(&mesh, f, shift, 0.9, 40)).smooth
+    };
+    let (here, there) = (smooth(DVec3::ZERO), smooth(DVec3::new(1e8, -2e8, 0.0)));
+    for (a, b) in here.pixels.iter().zip(&there.pixels) {
+        // Coordinates there are rounded to 3e-8, of cells 0.1 wide with steps of up to 40.
+        assert!((a[0] - b[0]).abs() < 1e-3, "{} {}", a[0], b[0]);
+    }
+}
+
 #[test]
 fn materials_and_creases_keep_their_edges() {
     let mesh = cut(two_triangles(), 8);
