@@ -37,6 +37,15 @@ impl Lock {
             }
         }
     }
+
+    /// Takes the lock file at `path` if nobody has it.
+    pub(crate) fn try_take(path: PathBuf) -> Option<Lock> {
+        let mut options = OpenOptions::new();
+        let file = options.create(true).truncate(false).write(true);
+        let file = file.open(&path).ok()?;
+        let ours = file.try_lock().is_ok() && is_still_at(&file, &path);
+        ours.then_some(Lock { path, _file: file })
+    }
 }
 
 impl Drop for Lock {

@@ -1,6 +1,5 @@
 //! Atomic replacement of files.
 
-use std::fs::File;
 use std::io::Write;
 use std::path::Path;
 
@@ -8,16 +7,40 @@ use std::path::Path;
 pub(crate) const PARTIAL: &str = "partial";
 
 /// Writes a file so that its path names either the old contents or all of the new ones, at
-/// every moment and after any interruption: the parts go into a file beside it, which is then
-/// renamed. Two processes must not write the same file at the same time.
+/// every moment, after any interruption, and whoever else writes it: the parts go into a file of
+/// its own beside it, `NAME.RANDOM.partial`, which is then renamed.
 pub fn replace_file(path: &Path, parts: &[&[u8]]) -> std::io::Result<()> {
-    let mut partial = path.as_os_str().to_owned();
-    partial.push(".");
-    partial.push(PARTIAL);
-    let mut file = File::create(&partial)?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let mut file = with_usual_permissions(
+        tempfile::Builder::new()
+            .prefix(&format!("{name}."))
+            .suffix(&format!(".{PARTIAL}")),
+    )
+    .tempfile_in(folder)?;
     for part in parts {
         file.write_all(part)?;
     }
-    file.sync_all()?;
-    std::fs::rename(&partial, path)
+    file.as_file().sync_all()?;
+    file.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}
+
+/// Results are no secrets: like any new file, as the user's mask says.
+#[cfg(unix)]
+fn with_usual_permissions<'a, 'b, 'c>(
+    builder: &'c mut tempfile::Builder<'a, 'b>,
+) -> &'c mut tempfile::Builder<'a, 'b> {
+    use std::os::unix::fs::PermissionsExt;
+    builder.permissions(std::fs::Permissions::from_mode(0o666))
+}
+
+#[cfg(not(unix))]
+fn with_usual_permissions<'a, 'b, 'c>(
+    builder: &'c mut tempfile::Builder<'a, 'b>,
+) -> &'c mut tempfile::Builder<'a, 'b> {
+    builder
 }

@@ -140,6 +140,7 @@ impl Store {
     ) -> Result<u64, CacheError> {
         self.make_folder()?;
         let path = self.path(id);
+        self.remove_leftovers(&path);
         let head = format::head(id.stage, id.key, facts, values);
         let data: &[u8] = bytemuck::cast_slice(values);
         replace_file(&path, &[&head, data]).map_err(CacheError::new("write", &path))?;
@@ -148,26 +149,41 @@ impl Store {
 
     /// All cached files, by name.
     pub fn list(&self) -> Result<Vec<Entry>, CacheError> {
-        let paths = self.files_ending(&[EXTENSION])?;
-        Ok(paths.into_iter().map(Entry::of).collect())
+        let artifacts = self.files()?.into_iter().filter(|file| file.is_artifact());
+        Ok(artifacts.map(|file| Entry::of(file.path)).collect())
     }
 
     /// Removes all cached files, and what interrupted processes left; returns how many files
-    /// and bytes. Files in use by a running process are left alone.
+    /// and bytes. Files in use by a running process are left alone, and so is whatever does not
+    /// have the name of a cached file.
     pub fn clean(&self) -> Result<(usize, u64), CacheError> {
         let (mut count, mut bytes) = (0, 0);
-        for path in self.files_ending(&[EXTENSION, PARTIAL, LOCK])? {
-            if is_locked(&lock_of(&artifact_of(&path))) {
+        for file in self.files()? {
+            // Dropping the lock removes the lock file.
+            let Some(_lock) = Lock::try_take(lock_of(&file.artifact)) else {
+                continue;
+            };
+            if file.path == lock_of(&file.artifact) {
                 continue;
             }
-            bytes += fs::metadata(&path).map_or(0, |m| m.len());
-            match fs::remove_file(&path) {
+            bytes += fs::metadata(&file.path).map_or(0, |m| m.len());
+            match fs::remove_file(&file.path) {
                 Ok(()) => count += 1,
                 Err(error) if error.kind() == std::io::ErrorKind::NotFound => {}
-                Err(error) => return Err(CacheError::new("remove", &path)(error)),
+                Err(error) => return Err(CacheError::new("remove", &file.path)(error)),
             }
         }
         Ok((count, bytes))
+    }
+
+    /// Removes what interrupted writers of an artifact left. The caller has its lock.
+    fn remove_leftovers(&self, artifact: &Path) {
+        for file in self.files().unwrap_or_default() {
+            if file.artifact == artifact && file.is_partial() {
+                // One that stays does no harm.
+                let _ = fs::remove_file(&file.path);
+            }
+        }
     }
 
     fn make_folder(&self) -> Result<(), CacheError> {
@@ -177,31 +193,60 @@ impl Store {
     /// Why there is no file: never made, or made from other inputs.
     fn absence(&self, id: &Id<'_>) -> Miss {
         let prefix = format!("{}-{}-", id.scene, id.stage);
-        let is_sibling = |path: &PathBuf| {
-            let name = path.file_name().and_then(|name| name.to_str());
-            name.is_some_and(|name| name.starts_with(&prefix))
+        let is_sibling = |file: &CacheFile| {
+            let name = file.path.file_name().and_then(|name| name.to_str());
+            file.is_artifact() && name.is_some_and(|name| name.starts_with(&prefix))
         };
-        match self.files_ending(&[EXTENSION]) {
+        match self.files() {
             Ok(files) if files.iter().any(is_sibling) => Miss::InputsChanged,
             _ => Miss::Nothing,
         }
     }
 
-    fn files_ending(&self, extensions: &[&str]) -> Result<Vec<PathBuf>, CacheError> {
+    /// All files of the folder that have the name of an artifact, its lock or a part of it.
+    fn files(&self) -> Result<Vec<CacheFile>, CacheError> {
         let entries = match fs::read_dir(&self.folder) {
             Ok(entries) => entries,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
             Err(error) => return Err(CacheError::new("list", &self.folder)(error)),
         };
-        let mut files: Vec<PathBuf> = entries
-            .filter_map(|entry| Some(entry.ok()?.path()))
-            .filter(|path| {
-                let extension = path.extension().and_then(|e| e.to_str());
-                extension.is_some_and(|e| extensions.contains(&e))
-            })
-            .collect();
-        files.sort();
+        let paths = entries.filter_map(|entry| {
+            let entry = entry.ok()?;
+            entry.file_type().ok()?.is_file().then(|| entry.path())
+        });
+        let mut files: Vec<CacheFile> = paths.filter_map(CacheFile::of).collect();
+        files.sort_by(|a, b| a.path.cmp(&b.path));
         Ok(files)
+    }
+}
+
+/// A file in the folder, and the artifact that it is or belongs to.
+struct CacheFile {
+    path: PathBuf,
+    artifact: PathBuf,
+}
+
+impl CacheFile {
+    /// Recognizes `SCENE-STAGE-KEY.bin`, and the same with more behind it.
+    fn of(path: PathBuf) -> Option<CacheFile> {
+        let name = path.file_name()?.to_str()?;
+        let end = name.rfind(&format!(".{EXTENSION}"))?;
+        let (scene_and_stage, key) = name[..end].rsplit_once('-')?;
+        let is_key = key.len() == 16 && key.bytes().all(|b| b.is_ascii_hexdigit());
+        let suffix = &name[end + 1 + EXTENSION.len()..];
+        let is_ours = suffix.is_empty()
+            || suffix == format!(".{LOCK}")
+            || suffix.ends_with(&format!(".{PARTIAL}"));
+        let artifact = path.with_file_name(format!("{scene_and_stage}-{key}.{EXTENSION}"));
+        (is_key && is_ours).then_some(CacheFile { path, artifact })
+    }
+
+    fn is_artifact(&self) -> bool {
+        self.path == self.artifact
+    }
+
+    fn is_partial(&self) -> bool {
+        self.path.extension().is_some_and(|e| e == PARTIAL)
     }
 }
 
@@ -235,17 +280,4 @@ fn stage_of(path: &Path) -> Result<String, Miss> {
 
 fn lock_of(artifact: &Path) -> PathBuf {
     artifact.with_extension(format!("{EXTENSION}.{LOCK}"))
-}
-
-/// The artifact that a file belongs to: itself, or the one it is the lock or partial file of.
-fn artifact_of(path: &Path) -> PathBuf {
-    let extension = path.extension().and_then(|e| e.to_str());
-    match extension {
-        Some(PARTIAL | LOCK) => path.with_extension(""),
-        _ => path.to_owned(),
-    }
-}
-
-fn is_locked(lock: &Path) -> bool {
-    File::open(lock).is_ok_and(|file| file.try_lock().is_err())
 }

@@ -178,7 +178,7 @@ fn facts_of_another_type_are_a_miss() {
 #[test]
 fn a_leftover_of_an_interrupted_write_does_no_harm() {
     let (_folder, store) = written();
-    let partial = store.path(&id(1)).with_extension("bin.partial");
+    let partial = store.path(&id(1)).with_extension("bin.Xy12.partial");
     fs::write(&partial, b"half a file").unwrap();
     assert_eq!(read(&store), Ok(sample()));
     let (facts, values) = sample();
@@ -221,6 +221,48 @@ fn clean_spares_what_is_in_use() {
     drop(lock);
     assert_eq!(store.clean().unwrap().0, 1);
     assert!(store.list().unwrap().is_empty());
+}
+
+#[test]
+fn clean_spares_what_is_not_cached() {
+    let (folder, store) = written();
+    let strangers = [
+        "Cargo.lock",
+        "firmware.bin",
+        "a.partial",
+        "box-0123456789abcdef.txt",
+    ];
+    for name in strangers {
+        fs::write(folder.path().join(name), b"mine").unwrap();
+    }
+    fs::create_dir(folder.path().join("box-form-factors-0123456789abcdef.bin")).unwrap();
+    let leftover = "box-form-factors-0123456789abcdee.bin.Zz.partial";
+    fs::write(folder.path().join(leftover), b"half").unwrap();
+    assert_eq!(store.list().unwrap().len(), 1);
+    assert_eq!(store.clean().unwrap().0, 2);
+    assert_eq!(
+        fs::read_dir(folder.path()).unwrap().count(),
+        strangers.len() + 1
+    );
+}
+
+#[test]
+fn writers_of_one_file_do_not_meet() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("result");
+    std::thread::scope(|scope| {
+        for writer in 0..8u8 {
+            let path = &path;
+            scope.spawn(move || {
+                for _ in 0..20 {
+                    crate::replace_file(path, &[&[writer; 5000], &[writer; 5000]]).unwrap();
+                    let found = fs::read(path).unwrap();
+                    assert!(found.len() == 10_000 && found.iter().all(|b| *b == found[0]));
+                }
+            });
+        }
+    });
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
 proptest! {

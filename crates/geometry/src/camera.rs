@@ -31,6 +31,9 @@ pub enum CameraError {
     Near,
 }
 
+/// Sine of the angle below which rounding would decide where up is.
+const PARALLEL: f64 = 1e-9;
+
 impl Camera {
     /// A camera at `position` that looks along `direction`.
     ///
@@ -44,10 +47,11 @@ impl Camera {
         near: f64,
     ) -> Result<Camera, CameraError> {
         let forward = direction.try_normalize().ok_or(CameraError::NoDirection)?;
-        let right = forward
-            .cross(up.normalize_or_zero())
-            .try_normalize()
-            .ok_or(CameraError::UpParallel)?;
+        let right = forward.cross(up.normalize_or_zero());
+        if right.length() < PARALLEL {
+            return Err(CameraError::UpParallel);
+        }
+        let right = right.normalize();
         if !(vertical_fov > 0.0 && vertical_fov < 180.0) {
             return Err(CameraError::FieldOfView);
         }

@@ -8,13 +8,13 @@ pub enum ShapeError {
     /// A coordinate is NaN or infinite.
     #[error("has a coordinate that is not a finite number")]
     NotFinite,
-    /// An edge has length zero, or the edges are parallel.
-    #[error("has no area: an edge has length zero or the edges are parallel")]
+    /// Three corners lie on a line, or all of them do.
+    #[error("has no area: corners coincide or lie on a line, or edges are parallel")]
     NoArea,
     /// The four corners of a quadrilateral do not lie in one plane.
     #[error(
-        "is not planar: a corner lies {deviation:.3e} off the plane of the others \
-         (at most {PLANARITY:.0e} of the diagonal is allowed); use two triangles"
+        "is not planar: its corners lie {deviation:.1e} of its diagonal off their mean plane \
+         (at most {PLANARITY:.0e} is allowed); use two triangles"
     )]
     NotPlanar {
         /// Distance of the corners from the mean plane, relative to the longer diagonal.
@@ -52,12 +52,12 @@ pub enum ShapeError {
     },
 }
 
-/// How far a corner of a planar quadrilateral may lie off its plane, relative to the longer
-/// diagonal: what the six digits of a typical mesh file leave.
+/// How far the corners of a planar quadrilateral may lie off their mean plane, relative to the
+/// longer diagonal: what the six digits of a typical mesh file leave.
 pub(crate) const PLANARITY: f64 = 1e-5;
 
-/// Sine of the angle below which edges count as parallel.
-const PARALLEL: f64 = 1e-9;
+/// Height over longest edge below which a triangle counts as a line.
+const SLIVER: f64 = 1e-9;
 
 pub(crate) fn check_triangle([a, b, c]: [DVec3; 3]) -> Result<(), ShapeError> {
     if ![a, b, c].iter().all(|p| p.is_finite()) {
@@ -67,7 +67,7 @@ pub(crate) fn check_triangle([a, b, c]: [DVec3; 3]) -> Result<(), ShapeError> {
     let longest = ab.length().max(ac.length()).max((c - b).length());
     let height = ab.cross(ac).length() / longest;
     // The height is NaN where all corners are equal; no comparison holds for it.
-    if height > PARALLEL * longest {
+    if height > SLIVER * longest {
         Ok(())
     } else {
         Err(ShapeError::NoArea)
@@ -84,7 +84,7 @@ pub(crate) fn check_quad(corners: &[DVec3; 4]) -> Result<(), ShapeError> {
     // Twisted and reflex quads are told from flat slivers by their triangles' areas.
     let triangles = [[a, b, c], [b, c, d], [c, d, a], [d, a, b]];
     let has_area =
-        |[p, q, r]: [DVec3; 3]| (q - p).cross(r - p).length() > PARALLEL * diagonal * diagonal;
+        |[p, q, r]: [DVec3; 3]| (q - p).cross(r - p).length() > SLIVER * diagonal * diagonal;
     if !triangles.into_iter().all(has_area) {
         return Err(ShapeError::NoArea);
     }

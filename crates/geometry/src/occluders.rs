@@ -36,18 +36,24 @@ pub struct Hit {
 
 /// What can stand between one polygon and another: see [`Occluders::sight`].
 #[derive(Clone, Copy, Debug)]
-pub enum Sight {
-    /// Nothing.
-    Clear,
-    /// At most these few faces.
+pub struct Sight(Between);
+
+#[derive(Clone, Copy, Debug)]
+enum Between {
+    Nothing,
     Few(FewFaces),
-    /// Too many faces to list.
-    Crowded,
+    /// Too many faces to list, or unknown.
+    Anything,
+}
+
+impl Sight {
+    /// Nothing is known, so everything is tried.
+    pub const UNKNOWN: Sight = Sight(Between::Anything);
 }
 
 /// A short list of faces.
 #[derive(Clone, Copy, Debug)]
-pub struct FewFaces {
+struct FewFaces {
     faces: [u32; FewFaces::CAPACITY],
     count: usize,
 }
@@ -181,11 +187,11 @@ impl Occluders {
             }
             Visit::Continue
         });
-        match (crowded, few.count) {
-            (true, _) => Sight::Crowded,
-            (false, 0) => Sight::Clear,
-            (false, _) => Sight::Few(few),
-        }
+        Sight(match (crowded, few.count) {
+            (true, _) => Between::Anything,
+            (false, 0) => Between::Nothing,
+            (false, _) => Between::Few(few),
+        })
     }
 
     fn may_block(&self, item: u32, i: FaceId, from: &Polygon, j: FaceId, to: &Polygon) -> bool {
@@ -205,10 +211,10 @@ impl Occluders {
     /// A face whose plane contains an end of the segment does not cut it: a cover that lies
     /// exactly on a face does not hide it.
     pub fn blocked(&self, sight: &Sight, i: FaceId, p: DVec3, j: FaceId, q: DVec3) -> bool {
-        match sight {
-            Sight::Clear => false,
-            Sight::Few(few) => few.faces[..few.count].iter().any(|&f| self.cuts(f, p, q)),
-            Sight::Crowded => {
+        match &sight.0 {
+            Between::Nothing => false,
+            Between::Few(few) => few.faces[..few.count].iter().any(|&f| self.cuts(f, p, q)),
+            Between::Anything => {
                 let ray = Ray::new(p, q - p);
                 let mut found = false;
                 self.tree.along(&ray, 0.0, 1.0, |item, _| {

@@ -278,7 +278,7 @@ proptest! {
                 continue;
             }
             let sight = occluders.sight(i_id, &mesh.faces[0].polygon, j_id, &mesh.faces[j].polygon);
-            let expected = occluders.blocked(&Sight::Crowded, i_id, p, j_id, q);
+            let expected = occluders.blocked(&Sight::UNKNOWN, i_id, p, j_id, q);
             prop_assert_eq!(occluders.blocked(&sight, i_id, p, j_id, q), expected);
             let ray = Ray::new(p, q - p);
             let others = (1..mesh.faces.len()).filter(|&f| f != j);

@@ -312,6 +312,11 @@ fn impossible_cameras_are_refused() {
         camera(DVec3::Y, DVec3::Y, 30.0, 0.0),
         CameraError::UpParallel
     );
+    let oblique = DVec3::new(0.1, -0.3, 0.2);
+    assert_eq!(
+        camera(oblique, 3.0 * oblique, 30.0, 0.0),
+        CameraError::UpParallel
+    );
     assert_eq!(
         camera(DVec3::Z, DVec3::Y, 180.0, 0.0),
         CameraError::FieldOfView
