@@ -58,16 +58,32 @@ fn rows_close_up_to_the_known_error() {
     assert!((0.66..0.68).contains(&worst));
 }
 
+/// `A_i F_ij = A_j F_ji`, with `F_ij` computed from the side of `i` in one scene and of `j` in
+/// the same scene with its surfaces in reverse order. Storage in f32 rounds by 6e-8 and sums in
+/// another order by less. Many segments graze edges in this scene of round numbers; they are
+/// decided the same way from either end.
 #[test]
 fn exchange_is_reciprocal() {
     let scene = coarse("cornell-closed");
-    let pipeline = pipeline(&scene);
-    let factors = pipeline.form_factors(Sources::Cached).unwrap().form_factors;
-    for i in 0..factors.areas.len() {
+    let mut reversed = scene.clone();
+    reversed.geometry.reverse();
+    reversed.surfaces.reverse();
+    let (here, there) = (pipeline(&scene), pipeline(&reversed));
+    let [a, b] = [&here, &there].map(|p| p.form_factors(Sources::Cached).unwrap().form_factors);
+    let last_face = here.mesh().faces.len() - 1;
+    let place = |patch: usize| {
+        let patch = &here.mesh().patches[patch];
+        let face = &there.mesh().faces[last_face - patch.face.index()];
+        face.first_patch + (patch.cell[0] * 4 + patch.cell[1]) as usize
+    };
+    for i in 0..a.areas.len() {
         for j in 0..i {
-            let there = factors.areas[i] * factors.factor(i, j);
-            let back = factors.areas[j] * factors.factor(j, i);
-            assert!((there - back).abs() <= 4.0 * f64::EPSILON * there);
+            let forth = a.areas[i] * a.factor(i, j);
+            let back = b.areas[place(j)] * b.factor(place(j), place(i));
+            assert!(
+                (forth - back).abs() <= 2e-7 * forth,
+                "{i} {j}: {forth} {back}"
+            );
         }
     }
 }

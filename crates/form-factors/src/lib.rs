@@ -28,7 +28,8 @@ use serde::{Deserialize, Serialize};
 
 pub use estimate::{estimate, rehearse};
 
-/// Raise it whenever the same input would give other form factors: it is part of their key.
+/// Raise it whenever the same mesh would give other form factors, because of a change here, in
+/// `geometry`, or in the random numbers: it is part of their key.
 pub const VERSION: u32 = 1;
 
 /// How the double integral of a pair is sampled.
@@ -45,8 +46,10 @@ pub enum Estimator {
         points: u32,
     },
     /// The plain Monte Carlo estimator: the mean of `V cos cos / (pi r^2)` over pairs of points
-    /// drawn uniformly, one jittered point from each of `points x points` equal strata at a
-    /// time, in an order shuffled anew for either patch.
+    /// drawn from either patch, one jittered point from each of `points x points` strata at a
+    /// time, in an order shuffled anew for either patch. Points are uniform on parallelograms and
+    /// triangles; on other quads they are uniform in the bilinear parameters, and weighted by the
+    /// Jacobian.
     ///
     /// Unbiased, but where patches touch the integrand grows as `1 / r^2` and the variance is
     /// unbounded: single factors, and with them row sums, can be off by any amount, and the

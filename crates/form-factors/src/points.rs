@@ -1,4 +1,5 @@
-//! Points on patches, one for each of `n x n` strata of equal parameter area.
+//! Points on patches, one for each of `n x n` strata: equal cells of the bilinear parameters on
+//! quads, congruent sub-triangles on triangles.
 
 use radiosity_geometry::{DVec2, DVec3, Polygon};
 

@@ -209,8 +209,14 @@ impl Occluders {
     /// on face `j`. `sight` must come from polygons that contain `p` and `q`.
     ///
     /// A face whose plane contains an end of the segment does not cut it: a cover that lies
-    /// exactly on a face does not hide it.
+    /// exactly on a face does not hide it. Segments that graze an edge are decided by rounding,
+    /// but the same way from either end.
     pub fn blocked(&self, sight: &Sight, i: FaceId, p: DVec3, j: FaceId, q: DVec3) -> bool {
+        let (p, q) = if p.to_array() <= q.to_array() {
+            (p, q)
+        } else {
+            (q, p)
+        };
         match &sight.0 {
             Between::Nothing => false,
             Between::Few(few) => few.faces[..few.count].iter().any(|&f| self.cuts(f, p, q)),
