@@ -16,17 +16,32 @@ pub(crate) struct ObjMesh {
     pub(crate) labels: Vec<Label>,
 }
 
-/// The names that a face carries in its file.
+/// Where a face comes from in its file.
 #[derive(Clone)]
 pub(crate) struct Label {
     group: Rc<str>,
     material: Option<Rc<str>>,
+    /// Position among the polygons of the file.
+    polygon: usize,
 }
 
 impl Label {
     /// The names, the more specific one first.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
         self.material.as_deref().into_iter().chain([&*self.group])
+    }
+
+    /// The line of the file that has the face, counted from 1.
+    pub(crate) fn line(&self, text: &str) -> usize {
+        let is_polygon = |line: &str| {
+            let mut words = line.split_whitespace();
+            words.next() == Some("f") && words.count() >= 3
+        };
+        let mut polygons = text
+            .lines()
+            .enumerate()
+            .filter(|(_, line)| is_polygon(line));
+        polygons.nth(self.polygon).map_or(1, |(index, _)| index + 1)
     }
 }
 
@@ -93,9 +108,11 @@ fn assemble(models: &[tobj::Model], materials: &[Rc<str>]) -> ObjMesh {
         mesh: PolygonMesh::default(),
         labels: Vec::new(),
     };
+    let mut polygon = 0;
     for model in models {
         let mesh = &model.mesh;
-        let label = Label {
+        let names = Label {
+            polygon,
             group: model.name.as_str().into(),
             material: mesh.material_id.map(|id| Rc::clone(&materials[id])),
         };
@@ -118,8 +135,12 @@ fn assemble(models: &[tobj::Model], materials: &[Rc<str>]) -> ObjMesh {
             let corners: Vec<u32> = corners.iter().map(|index| first + index).collect();
             for face in up_to_four_corners(corners, &result.mesh.positions) {
                 result.mesh.faces.push(face);
-                result.labels.push(label.clone());
+                result.labels.push(Label {
+                    polygon,
+                    ..names.clone()
+                });
             }
+            polygon += 1;
         }
     }
     result
@@ -139,8 +160,8 @@ fn up_to_four_corners(corners: Vec<u32>, positions: &[DVec3]) -> Vec<Vec<u32>> {
         earcut::Earcut::new().earcut(flat, &[], &mut triangles);
     }
     if triangles.is_empty() {
-        // No area: left as one face with too many corners or none, which the checks refuse.
-        return vec![corners];
+        // No area: the checks refuse a piece of it.
+        return vec![corners[..3].to_vec()];
     }
     let face = |t: &[usize]| t.iter().map(|&k| corners[k]).collect();
     triangles.chunks_exact(3).map(face).collect()

@@ -42,6 +42,17 @@ impl Scene {
 
 /// Reads and checks a scene file, and the mesh files that it names.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
+    if path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("obj"))
+    {
+        let help = "write a scene file with a surface: mesh = { file = \"NAME.obj\" }";
+        return Err(SceneError::of_file(
+            path,
+            "this is a mesh, not a scene",
+            help,
+        ));
+    }
     let text = std::fs::read_to_string(path).map_err(|error| {
         let title = format!("cannot read the scene: {error}");
         SceneError::of_file(path, &title, "give the path of a scene file (.toml)")

@@ -4,7 +4,7 @@ use crate::material::Material;
 use crate::obj;
 use crate::source::{Complaint, SceneError, Source};
 use crate::values::{Counts, Vector, divisions, require, vector};
-use radiosity_geometry::{self as geometry, DVec3, Divisions, PolygonMesh, Shape};
+use radiosity_geometry::{self as geometry, DVec3, Divisions, PolygonMesh, Shape, ShapeError};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -77,6 +77,13 @@ impl Context<'_> {
         let mut result = (Vec::new(), Vec::new());
         for table in tables {
             let name = &table.get_ref().name;
+            require(
+                &self.source,
+                name,
+                |n| !n.trim().is_empty(),
+                "a name",
+                "some text",
+            )?;
             if names.insert(name.get_ref().clone(), name.span()).is_some() {
                 let title = format!("there are two surfaces named `{}`", name.get_ref());
                 let complaint = Complaint::new(title, "choose another name");
@@ -179,19 +186,29 @@ impl Context<'_> {
 
     fn mesh(&self, table: &MeshTable) -> Result<Geometry, SceneError> {
         let path = self.folder.join(table.file.get_ref());
-        let text = std::fs::read_to_string(&path).map_err(|error| {
+        let bytes = std::fs::read(&path).map_err(|error| {
             let file = table.file.get_ref();
             let complaint = Complaint::new(format!("cannot read the mesh `{file}`: {error}"), "")
-                .suggest(file, self.obj_files().iter().map(String::as_str));
+                .suggest(file, self.obj_files_near(file).iter().map(String::as_str));
             self.source.error(table.file.span(), &complaint)
         })?;
-        let obj::ObjMesh { mut mesh, labels } = obj::parse(&Source {
+        // Comments and names may be in any encoding.
+        let text = String::from_utf8_lossy(&bytes);
+        let source = Source {
             path: &path,
             text: &text,
-        })?;
+        };
+        let obj::ObjMesh { mut mesh, labels } = obj::parse(&source)?;
         self.transform(table, &mut mesh)?;
+        let shape = Shape::Mesh(mesh);
+        if let Err(ShapeError::FaceWithoutArea { face }) = shape.polygons() {
+            let title = "this face has no area";
+            let complaint = Complaint::new(title, "its corners coincide or lie on a line")
+                .help("remove it from the mesh");
+            return Err(source.error_in_line(labels[face].line(&text), &complaint));
+        }
         Ok(Geometry {
-            shape: Shape::Mesh(mesh),
+            shape,
             span: table.file.span(),
             labels,
         })
@@ -220,14 +237,16 @@ impl Context<'_> {
         Ok(())
     }
 
-    /// The mesh files beside the scene, for suggestions.
-    fn obj_files(&self) -> Vec<String> {
-        let Ok(entries) = std::fs::read_dir(self.folder) else {
+    /// The mesh files in the folder that `file` names, for suggestions.
+    fn obj_files_near(&self, file: &str) -> Vec<String> {
+        let named = Path::new(file).parent().unwrap_or(Path::new(""));
+        let Ok(entries) = std::fs::read_dir(self.folder.join(named)) else {
             return Vec::new();
         };
         let mut names: Vec<String> = entries
             .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
             .filter(|name| name.ends_with(".obj"))
+            .map(|name| named.join(name).display().to_string())
             .collect();
         names.sort();
         names
@@ -241,6 +260,11 @@ impl Context<'_> {
         labels: &[obj::Label],
     ) -> Result<Vec<usize>, SceneError> {
         let default = self.material(&table.material)?;
+        if let (None, Some((label, _))) = (&table.mesh, table.materials.first_key_value()) {
+            let complaint = Complaint::new("`materials` is for meshes alone", "not a mesh")
+                .help("use `material`");
+            return Err(self.source.error(label.span(), &complaint));
+        }
         let mut by_label = BTreeMap::new();
         for (label, material) in &table.materials {
             let known = |l: &obj::Label| l.names().any(|name| name == label.get_ref());

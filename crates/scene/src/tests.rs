@@ -89,6 +89,9 @@ fn mistakes_are_explained() {
         ("material = \"white\"", "material = \"whit\""),
         ("material = \"white\"", "material = \"xyz\""),
         ("name = \"wing\"", "name = \"floor\""),
+        ("name = \"wing\"", "name = \"\""),
+        ("emission = 12", "emission = 1e-170"),
+        ("max_patch_edge = 0.25", "materials = { base = \"white\" }"),
         ("edge_b = [0, 1, 0]", "edge_b = [2, 0, 0]"),
         ("edge_b = [0, 1, 0]", "edge_b = [inf, 0, 0]"),
         ("edge_b = [0, 1, 0]", "edge_b = [0, 1]"),
@@ -216,6 +219,23 @@ fn meshes_are_scaled_and_then_moved() {
 }
 
 #[test]
+fn comments_may_be_in_any_encoding() {
+    let scene = MeshScene::new("");
+    let latin_1 = b"# caf\xe9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    std::fs::write(scene.0.path().join("model.obj"), latin_1).unwrap();
+    assert!(scene.parse("model.obj", " }").is_ok());
+}
+
+#[test]
+fn a_mesh_is_not_a_scene() {
+    let error = crate::load(Path::new("model.obj")).unwrap_err().to_string();
+    assert!(
+        error.contains("this is a mesh") && error.contains("mesh = {"),
+        "{error}"
+    );
+}
+
+#[test]
 fn mesh_mistakes_are_explained() {
     let mut report = String::new();
     let mut add = |obj: &str, file: &str, extra: &str| {
@@ -233,7 +253,17 @@ fn mesh_mistakes_are_explained() {
         "model.obj",
         " }",
     );
-    add("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "model.obj", " }");
+    let degenerate = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 4 0 0\nv 0 1 0\n";
+    add(
+        &format!("{degenerate}f 1 2 6\n\nf 1 2 3\n"),
+        "model.obj",
+        " }",
+    );
+    add(
+        &format!("{degenerate}l 1 2\ng other\nf 1 2 6\nf 1 2 3 4 5\n"),
+        "model.obj",
+        " }",
+    );
     add("v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n", "model.obj", " }");
     add("# nothing here\n", "model.obj", " }");
     add(TWO_GROUPS, "modle.obj", " }");
