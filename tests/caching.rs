@@ -4,7 +4,7 @@ use radiosity::cache::Store;
 use radiosity::geometry::{Camera, DVec3, Divisions};
 use radiosity::scene::{Mode, Scene};
 use radiosity::solver::Solution;
-use radiosity::{Observer, Pipeline, Silent, Solved, Sources, Stage};
+use radiosity::{How, Observer, Pipeline, Silent, Solved, Sources, Stage};
 use radiosity_tests::shipped;
 use std::fs;
 use std::path::PathBuf;
@@ -46,8 +46,8 @@ impl Bench {
     fn reasons(&self) -> Reasons {
         let solved = self.solve();
         (
-            solved.form_factors.computed_because,
-            solved.origin.computed_because,
+            solved.form_factors.reason().map(str::to_owned),
+            solved.origin.reason().map(str::to_owned),
         )
     }
 
@@ -110,7 +110,7 @@ fn a_cold_run_equals_a_warm_one_byte_for_byte() {
     // Solving from cached form factors gives the same bytes too.
     fs::remove_file(bench.file("solution")).unwrap();
     let solved = bench.solve();
-    assert_eq!(solved.form_factors.computed_because, None);
+    assert_eq!(solved.form_factors.reason(), None);
     assert_eq!(solved.solution, cold.0);
     // And so do files: a second cold run writes the same ones.
     let other = Bench::warm();
@@ -242,14 +242,14 @@ fn damage_is_noticed_named_and_mended() {
     for (damage, reason) in kinds {
         bench.damage("solution", damage);
         let solved = bench.solve();
-        let because = solved.origin.computed_because.unwrap();
+        let because = solved.origin.reason().unwrap().to_owned();
         assert!(because.contains(reason), "{because}");
         assert_eq!(solved.solution, good);
 
         bench.damage("form-factors", damage);
         fs::remove_file(bench.file("solution")).unwrap();
         let solved = bench.solve();
-        let because = solved.form_factors.computed_because.unwrap();
+        let because = solved.form_factors.reason().unwrap().to_owned();
         assert!(because.contains(reason), "{because}");
         assert_eq!(solved.solution, good);
         assert_eq!(bench.reasons(), none(), "what was damaged is mended");
@@ -275,11 +275,8 @@ fn a_file_with_another_key_is_not_believed() {
     fs::remove_file(bench.file("solution")).unwrap();
     bench.scene.form_factors.points = 3;
     let solved = bench.solve();
-    let because = solved.form_factors.computed_because;
-    assert_eq!(
-        because.as_deref(),
-        Some("the cached file belongs to another key")
-    );
+    let because = solved.form_factors.reason();
+    assert_eq!(because, Some("the cached file belongs to another key"));
     assert_eq!(solved.solution, good);
 }
 
@@ -287,7 +284,11 @@ fn a_file_with_another_key_is_not_believed() {
 fn losing_the_form_factors_costs_nothing_while_the_solution_stands() {
     let bench = Bench::warm();
     fs::remove_file(bench.file("form-factors")).unwrap();
-    assert_eq!(bench.reasons(), none());
+    let solved = bench.solve();
+    assert_eq!(
+        (solved.origin.how, solved.form_factors.how),
+        (How::Cached, How::NotNeeded)
+    );
 }
 
 #[test]
@@ -296,10 +297,10 @@ fn recomputing_on_demand_says_so() {
     let store = bench.store();
     let pipeline = Pipeline::new(&bench.scene, Some(&store), &Silent).unwrap();
     let solved = pipeline.solution(Sources::Computed).unwrap();
-    assert_eq!(solved.origin.computed_because.as_deref(), Some("asked for"));
-    assert_eq!(solved.form_factors.computed_because, None);
+    assert_eq!(solved.origin.reason(), Some("asked for"));
+    assert_eq!(solved.form_factors.reason(), None);
     let made = pipeline.form_factors(Sources::Computed).unwrap();
-    assert_eq!(made.origin.computed_because.as_deref(), Some("asked for"));
+    assert_eq!(made.origin.reason(), Some("asked for"));
 }
 
 /// Collects notes.

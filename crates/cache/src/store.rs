@@ -149,7 +149,7 @@ impl Store {
 
     /// All cached files, by name.
     pub fn list(&self) -> Result<Vec<Entry>, CacheError> {
-        let artifacts = self.files()?.into_iter().filter(|file| file.is_artifact());
+        let artifacts = self.files()?.into_iter().filter(CacheFile::is_artifact);
         Ok(artifacts.map(|file| Entry::of(file.path)).collect())
     }
 

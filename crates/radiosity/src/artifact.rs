@@ -14,11 +14,22 @@ pub enum Sources {
     Computed,
 }
 
+/// How an artifact was come by.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum How {
+    /// Taken from the cache.
+    Cached,
+    /// Computed, for this reason.
+    Computed(String),
+    /// What would have been made from it was cached, and it was not.
+    NotNeeded,
+}
+
 /// Where an artifact came from.
 #[derive(Clone, Debug)]
 pub struct Origin {
-    /// Why it was computed; `None` if it was cached.
-    pub computed_because: Option<String>,
+    /// Cached or computed.
+    pub how: How,
     /// Its file, if it is cached now.
     pub file: Option<PathBuf>,
     /// The size of its data.
@@ -52,7 +63,10 @@ pub(crate) fn obtain<T>(
 ) -> Result<(T, Origin), Error> {
     let Some(store) = cache else {
         let reason = "caching is off".to_owned();
-        return Ok(((recipe.compute)()?, Origin::new(Some(reason), None)));
+        return Ok((
+            (recipe.compute)()?,
+            Origin::new(How::Computed(reason), None),
+        ));
     };
     let path = store.path(id);
     let look = || match sources {
@@ -60,10 +74,10 @@ pub(crate) fn obtain<T>(
         Sources::Computed => Err("asked for".to_owned()),
     };
     if let Ok(artifact) = look() {
-        return Ok((artifact, Origin::new(None, Some(path))));
+        return Ok((artifact, Origin::new(How::Cached, Some(path))));
     }
     let not_cached = |error: CacheError| {
-        observer.note(&format!("{error}; the {} will not be cached", id.stage));
+        observer.note(&format!("{error}: no caching of the {}", id.stage));
     };
     let waiting = || {
         let stage = id.stage;
@@ -74,20 +88,34 @@ pub(crate) fn obtain<T>(
     let lock = store.lock(id, waiting).map_err(not_cached).ok();
     // Whoever had the lock before may have made it meanwhile.
     let reason = match look() {
-        Ok(artifact) => return Ok((artifact, Origin::new(None, Some(path)))),
+        Ok(artifact) => return Ok((artifact, Origin::new(How::Cached, Some(path)))),
         Err(reason) => reason,
     };
     let artifact = (recipe.compute)()?;
     let write = |_| (recipe.write)(store, &artifact).map_err(not_cached).ok();
     let written = lock.as_ref().and_then(write);
     let file = written.map(|_| path);
-    Ok((artifact, Origin::new(Some(reason), file)))
+    Ok((artifact, Origin::new(How::Computed(reason), file)))
 }
 
 impl Origin {
-    fn new(computed_because: Option<String>, file: Option<PathBuf>) -> Origin {
+    /// Whether it was taken from the cache.
+    pub fn is_cached(&self) -> bool {
+        self.how == How::Cached
+    }
+
+    /// Why it was not taken from the cache.
+    pub fn reason(&self) -> Option<&str> {
+        match &self.how {
+            How::Cached => None,
+            How::Computed(reason) => Some(reason),
+            How::NotNeeded => Some("not needed: the solution is cached"),
+        }
+    }
+
+    fn new(how: How, file: Option<PathBuf>) -> Origin {
         Origin {
-            computed_because,
+            how,
             file,
             bytes: 0,
             seconds: 0.0,

@@ -102,7 +102,8 @@ impl Error {
                 Error::Unsolvable {
                     problem: format!("{error}; the worst rows belong to `{names}`"),
                     remedy: "lower the reflectances there, or estimate the form factors with \
-                             more points (--points) or finer patches (--patches)"
+                             more points (--points, with monte-carlo --pairs) or finer patches \
+                             (--patches)"
                         .to_owned(),
                 }
             }

@@ -35,7 +35,7 @@ mod resources;
 mod rows;
 mod settings;
 
-pub use artifact::{Origin, Sources};
+pub use artifact::{How, Origin, Sources};
 pub use error::Error;
 pub use export::radiosity_csv;
 pub use observer::{Observer, Silent, Stage};

@@ -5,7 +5,7 @@
 pub enum Stage {
     /// Counted in pairs of patches.
     FormFactors,
-    /// Counted in sweeps.
+    /// Counted in hundredths of the way from the first residual to the tolerance.
     Solve,
     /// Counted in rows of pixels.
     Display,

@@ -1,9 +1,9 @@
 //! The chain of stages, with the cache between them.
 
-use crate::artifact::{Origin, Recipe, Sources, obtain};
+use crate::artifact::{How, Origin, Recipe, Sources, obtain};
 use crate::error::Error;
 use crate::observer::{Observer, Stage};
-use crate::resources::{Needs, bytes, duration, grouped};
+use crate::resources::{Needs, bytes, check_image, duration, grouped};
 use crate::rows::RowSummary;
 use crate::settings;
 use radiosity_cache::{Artifact, Id, Key, Miss, Store};
@@ -55,14 +55,18 @@ type SolutionFacts = (Convergence, RowSummary);
 
 const FORM_FACTORS: &str = "form-factors";
 const SOLUTION: &str = "solution";
+/// Into how many steps the solver's progress is divided.
+const SOLVER_STEPS: u64 = 100;
+/// Raise it whenever the layout of what is stored beside an array changes ([`RowFacts`],
+/// [`Convergence`], [`RowSummary`]): it is part of every key.
+const FACTS_VERSION: u32 = 1;
 /// Below this many pairs of points a prediction costs more than it is worth.
 const PREDICTED_FROM: u64 = 20_000_000;
-/// Rows to try for a prediction.
-const REHEARSED_ROWS: usize = 16;
+/// Pairs of points to try for a prediction, some hundredths of a second's work.
+const REHEARSED: u64 = 2_000_000;
 
 impl<'a> Pipeline<'a> {
-    /// Stage 1: cuts the scene into patches, after checking that the machine can hold what
-    /// follows.
+    /// Stage 1: cuts the scene into patches.
     pub fn new(
         scene: &'a Scene,
         cache: Option<&'a Store>,
@@ -70,13 +74,12 @@ impl<'a> Pipeline<'a> {
     ) -> Result<Pipeline<'a>, Error> {
         let of_mesh = |error| Error::of_mesh(scene, &error);
         let patches = geometry::count_patches(&scene.geometry, scene.divisions).map_err(of_mesh)?;
-        Needs::of(patches).check(cache)?;
         let mesh = geometry::subdivide(&scene.geometry, scene.divisions).map_err(of_mesh)?;
         let material = |patch: usize| {
             let face = mesh.face_of(patch);
             scene.material(face.surface, face.input_index)
         };
-        let inputs = (&mesh, settings::estimator(scene));
+        let inputs = (FACTS_VERSION, &mesh, settings::estimator(scene));
         Ok(Pipeline {
             key: Key::of(FORM_FACTORS, form_factors::VERSION, &inputs),
             scene,
@@ -104,7 +107,7 @@ impl<'a> Pipeline<'a> {
                 let (rows, values) = store.read::<Vec<RowFacts>>(&id)?.into_values()?;
                 self.stored_form_factors(rows, values).ok_or(Miss::Header)
             },
-            compute: || Ok(self.estimate()),
+            compute: || self.estimate(),
             write: |store: &Store, made: &FormFactors| {
                 store.write(&id, &made.rows, made.exchange.values())
             },
@@ -123,6 +126,16 @@ impl<'a> Pipeline<'a> {
     /// Stage 3: the solution. `sources` is about the solution alone; form factors are taken
     /// from the cache where possible, and not even looked at where the solution is cached.
     pub fn solution(&self, sources: Sources) -> Result<Solved, Error> {
+        self.solution_after(sources, &mut |_, _| ())
+    }
+
+    /// [`Pipeline::solution`], telling of the form factors as soon as they are there and before
+    /// anything is solved.
+    pub fn solution_after(
+        &self,
+        sources: Sources,
+        on_form_factors: &mut dyn FnMut(&Origin, &RowSummary),
+    ) -> Result<Solved, Error> {
         let id = self.solution_id();
         let mut made_from = None;
         let mut start = Instant::now();
@@ -136,6 +149,7 @@ impl<'a> Pipeline<'a> {
             },
             compute: || {
                 let made = self.form_factors(Sources::Cached)?;
+                on_form_factors(&made.origin, &made.rows);
                 start = Instant::now();
                 let solution = self.solve(&made.form_factors)?;
                 made_from = Some(made.origin);
@@ -149,11 +163,16 @@ impl<'a> Pipeline<'a> {
             obtain(self.cache, self.observer, &id, sources, recipe)?;
         origin.bytes = 12 * radiosity.len() as u64;
         origin.seconds = start.elapsed().as_secs_f64();
+        let form_factors = made_from.unwrap_or_else(|| {
+            let untouched = self.untouched_form_factors();
+            on_form_factors(&untouched, &rows);
+            untouched
+        });
         Ok(Solved {
             solution: Solution { radiosity, report },
             origin,
             rows,
-            form_factors: made_from.unwrap_or_else(|| self.untouched_form_factors()),
+            form_factors,
         })
     }
 
@@ -161,6 +180,7 @@ impl<'a> Pipeline<'a> {
     pub fn pictures(&self, solution: &Solution) -> Result<Pictures, Error> {
         let camera = self.scene.camera.as_ref().ok_or(Error::NoCamera)?;
         let params = settings::image_params(self.scene);
+        check_image(params.width, params.height)?;
         let to_f32 = |rgb: &[f64; 3]| rgb.map(|channel| channel as f32);
         let emission: Vec<[f32; 3]> = self.emission.iter().map(to_f32).collect();
         let reflectance: Vec<[f32; 3]> = self.reflectance.iter().map(to_f32).collect();
@@ -192,6 +212,7 @@ impl<'a> Pipeline<'a> {
 
     fn solution_id(&self) -> Id<'_> {
         let inputs = (
+            FACTS_VERSION,
             self.key.bytes(),
             &self.emission,
             &self.reflectance,
@@ -219,24 +240,29 @@ impl<'a> Pipeline<'a> {
         })
     }
 
-    fn estimate(&self) -> FormFactors {
-        let needs = Needs::of(self.mesh.patches.len());
+    /// Computes the form factors, after checking that the machine can hold them.
+    fn estimate(&self) -> Result<FormFactors, Error> {
+        let estimator = settings::estimator(self.scene);
+        let needs = Needs::of(self.mesh.patches.len(), estimator);
+        needs.check(self.cache)?;
         self.predict(&needs);
         self.observer.begin(Stage::FormFactors, needs.pairs);
         let advance = |pairs| self.observer.advance(pairs);
-        let made = form_factors::estimate(&self.mesh, settings::estimator(self.scene), &advance);
+        let made = form_factors::estimate(&self.mesh, estimator, &advance);
         self.observer.end();
-        made
+        Ok(made)
     }
 
     /// Says before a long run what it will take.
     fn predict(&self, needs: &Needs) {
         let estimator = settings::estimator(self.scene);
-        if needs.pairs * estimator.point_pairs() < PREDICTED_FROM {
+        let point_pairs = estimator.point_pairs();
+        if needs.pairs.saturating_mul(point_pairs) < PREDICTED_FROM {
             return;
         }
+        let tried = (REHEARSED / point_pairs).max(2 * rayon::current_num_threads() as u64);
         let start = Instant::now();
-        let tried = form_factors::rehearse(&self.mesh, estimator, REHEARSED_ROWS).max(1);
+        form_factors::rehearse(&self.mesh, estimator, tried);
         let seconds = start.elapsed().as_secs_f64() * needs.pairs as f64 / tried as f64;
         self.observer.note(&format!(
             "{} patches, {} pairs: {} of memory, {} of disk, {}",
@@ -256,21 +282,32 @@ impl<'a> Pipeline<'a> {
             reflectance: &self.reflectance,
         };
         let params = settings::solver_params(self.scene);
-        self.observer
-            .begin(Stage::Solve, u64::from(params.max_sweeps));
-        let solution = solver::solve(&system, &params, &mut |_| self.observer.advance(1));
+        self.observer.begin(Stage::Solve, SOLVER_STEPS);
+        let mut reached = 0;
+        let solution = solver::solve(&system, &params, &mut |residual| {
+            // Residuals fall by a factor per sweep, so their logarithm goes evenly.
+            let share = (residual.ln() / params.tolerance.ln()).clamp(0.0, 1.0);
+            let now = (share * SOLVER_STEPS as f64) as u64;
+            self.observer.advance(now.saturating_sub(reached));
+            reached = reached.max(now);
+        });
         self.observer.end();
         let name_of = |patch| self.surface_name(patch).to_owned();
         solution.map_err(|error| Error::of_solver(&error, name_of))
     }
 
-    /// What to say of form factors that were not needed.
+    /// What to say of form factors that nobody asked for.
     fn untouched_form_factors(&self) -> Origin {
         let path = self.cache.map(|store| store.path(&self.form_factors_id()));
+        let file = path.filter(|path| path.exists());
         Origin {
-            computed_because: None,
-            file: path.filter(|path| path.exists()),
-            bytes: 4 * Needs::of(self.mesh.patches.len()).pairs,
+            how: if file.is_some() {
+                How::Cached
+            } else {
+                How::NotNeeded
+            },
+            file,
+            bytes: 4 * radiosity_matrix::packed_len(self.mesh.patches.len()) as u64,
             seconds: 0.0,
         }
     }

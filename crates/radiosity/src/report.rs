@@ -1,11 +1,12 @@
 //! What a run has to say, as lines for people and as JSON for scripts.
 
-use crate::artifact::Origin;
-use crate::cli::terminal::Terminal;
+use crate::artifact::{How, Origin};
+use crate::cli::terminal::{Terminal, say};
 use crate::error::Error;
 use crate::pipeline::Pipeline;
 use crate::resources::{Needs, bytes, grouped};
 use crate::rows::RowSummary;
+use crate::settings::estimator;
 use radiosity_geometry::{Mesh, count_patches};
 use radiosity_scene::Scene;
 use radiosity_solver::{Energy, Solution};
@@ -47,7 +48,7 @@ struct Stages {
 struct FormFactorReport {
     seconds: f64,
     cached: bool,
-    /// Why they were computed; null if cached.
+    /// Why they were computed, or that nobody needed them; null if cached.
     reason: Option<String>,
     row_sum_mean: f64,
     /// The largest |row sum - 1|; in open scenes no error.
@@ -107,21 +108,21 @@ impl<'a> Report<'a> {
         self.stage_line("form factors", origin);
         let more = format!("rows sum to {:.4} on average", rows.mean);
         self.terminal.line(&indented(&more));
-        if rows.over_one > 0 {
+        if rows.excessive > 0 {
             let patches = pipeline.mesh().patches.len() as u64;
             let (sum, patch) = rows.largest;
             self.terminal.line(&indented(&format!(
-                "warning: {} of {} rows sum to more than 1, the worst to {sum:.3} (in `{}`): the \
+                "warning: {} of {} rows sum to more than 1.001, the worst to {sum:.3} (in `{}`): the \
                  estimator overestimates patches that touch",
-                grouped(rows.over_one),
+                grouped(rows.excessive),
                 grouped(patches),
                 pipeline.surface_name(patch as usize),
             )));
         }
         self.json.stages.form_factors = Some(FormFactorReport {
             seconds: origin.seconds,
-            cached: origin.computed_because.is_none(),
-            reason: origin.computed_because.clone(),
+            cached: origin.is_cached(),
+            reason: origin.reason().map(str::to_owned),
             row_sum_mean: rows.mean,
             row_sum_max_error: rows.max_error,
         });
@@ -157,8 +158,8 @@ impl<'a> Report<'a> {
         }
         self.json.stages.solve = Some(SolveReport {
             seconds: origin.seconds,
-            cached: origin.computed_because.is_none(),
-            reason: origin.computed_because.clone(),
+            cached: origin.is_cached(),
+            reason: origin.reason().map(str::to_owned),
             sweeps,
             residual,
             converged: report.converged,
@@ -184,14 +185,19 @@ impl<'a> Report<'a> {
         self.json.outputs.insert(name.to_owned(), path);
     }
 
-    pub(crate) fn json(&self) -> String {
-        serde_json::to_string(&self.json).expect("plain data always encodes")
+    /// Prints the JSON object, if one is wanted.
+    pub(crate) fn finish(&self) -> Result<(), Error> {
+        if !self.terminal.json {
+            return Ok(());
+        }
+        say(&serde_json::to_string(&self.json).expect("plain data always encodes"))
     }
 
     fn stage_line(&self, stage: &str, origin: &Origin) {
-        let how = match &origin.computed_because {
-            None => "cached".to_owned(),
-            Some(reason) => format!("computed ({reason})"),
+        let how = match &origin.how {
+            How::Cached => "cached".to_owned(),
+            How::Computed(reason) => format!("computed ({reason})"),
+            How::NotNeeded => "not needed".to_owned(),
         };
         let file = origin.file.as_ref().and_then(|file| file.file_name());
         let file = file.unwrap_or_default().to_string_lossy();
@@ -203,16 +209,14 @@ impl<'a> Report<'a> {
 
 /// What `check` says.
 pub(crate) fn check_lines(scene: &Scene) -> Result<Vec<String>, Error> {
-    let patches = count_patches(&scene.geometry, scene.divisions)
-        .map_err(|error| Error::of_mesh(scene, &error))?;
-    let needs = Needs::of(patches);
+    let needs = needs_of(scene)?;
     let camera = if scene.camera.is_some() {
         ""
     } else {
         " (no camera: it cannot be rendered)"
     };
     let mut lines = vec![
-        format!("{}{camera}", scene_line(scene, patches)),
+        format!("{}{camera}", scene_line(scene, needs.patches)),
         format!(
             "{:<14}{} pairs: {} of memory, {} of disk",
             "form factors",
@@ -226,8 +230,14 @@ pub(crate) fn check_lines(scene: &Scene) -> Result<Vec<String>, Error> {
             "warning: nothing emits light; pictures will be black",
         ));
     }
-    needs.check(None)?;
     Ok(lines)
+}
+
+/// What computing the scene would take.
+pub(crate) fn needs_of(scene: &Scene) -> Result<Needs, Error> {
+    let patches = count_patches(&scene.geometry, scene.divisions)
+        .map_err(|error| Error::of_mesh(scene, &error))?;
+    Ok(Needs::of(patches, estimator(scene)))
 }
 
 fn scene_line(scene: &Scene, patches: usize) -> String {

@@ -2,10 +2,11 @@
 
 use crate::error::Error;
 use radiosity_cache::Store;
+use radiosity_form_factors::Estimator;
 use radiosity_matrix::packed_len;
 use std::path::Path;
 
-/// Predicted needs of the form factor stage.
+/// Predicted needs of a run with its form factors computed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Needs {
     pub(crate) patches: usize,
@@ -16,41 +17,35 @@ pub(crate) struct Needs {
     pub(crate) disk: u64,
 }
 
-/// Patch with its polygon, sample points, materials, radiosities: a generous round figure.
+/// Patch with its face, materials and radiosities, twice over for what is passed on.
 const BYTES_PER_PATCH: u64 = 2048;
+/// A point with the area it stands for.
+const BYTES_PER_POINT: u64 = 32;
+/// Two linear images, and one of them shown and encoded.
+const BYTES_PER_PIXEL: u64 = 2 * 12 + 3 + 12;
 /// The share of the free memory that a run may take.
 const USABLE_SHARE: f64 = 0.9;
 
 impl Needs {
-    pub(crate) fn of(patches: usize) -> Needs {
+    pub(crate) fn of(patches: usize, estimator: Estimator) -> Needs {
         let pairs = packed_len(patches) as u64;
         let matrix = 4 * pairs;
+        let stored_points = match estimator {
+            Estimator::Regular { points } => u64::from(points).pow(2),
+            Estimator::MonteCarlo { .. } => 0,
+        };
+        let per_patch = BYTES_PER_PATCH + BYTES_PER_POINT * stored_points;
         Needs {
             patches,
             pairs,
-            memory: matrix + BYTES_PER_PATCH * patches as u64,
+            memory: matrix + per_patch * patches as u64,
             disk: matrix + 16 * patches as u64,
         }
     }
 
     /// Refuses what cannot work, with a remedy.
     pub(crate) fn check(&self, cache: Option<&Store>) -> Result<(), Error> {
-        if let Some(free) = free_memory().map(|free| free as f64 * USABLE_SHARE)
-            && self.memory as f64 > free
-        {
-            return Err(Error::Resources {
-                problem: format!(
-                    "{} patches need {} of memory, but only {} are free",
-                    grouped(self.patches as u64),
-                    bytes(self.memory),
-                    bytes(free as u64),
-                ),
-                remedy: format!(
-                    "use fewer patches (--patches, --max-patch-edge): up to {} fit",
-                    grouped((free / 2.0).sqrt() as u64),
-                ),
-            });
-        }
+        self.check_memory()?;
         match cache.and_then(|store| free_disk(store.folder())) {
             Some(free) if self.disk > free => Err(Error::Resources {
                 problem: format!(
@@ -63,6 +58,44 @@ impl Needs {
             _ => Ok(()),
         }
     }
+
+    pub(crate) fn check_memory(&self) -> Result<(), Error> {
+        match usable_memory() {
+            Some(usable) if self.memory > usable => Err(Error::Resources {
+                problem: format!(
+                    "{} patches need {} of memory, but only {} can be used",
+                    grouped(self.patches as u64),
+                    bytes(self.memory),
+                    bytes(usable),
+                ),
+                remedy: format!(
+                    "use fewer patches (--patches, --max-patch-edge): about {} fit",
+                    grouped((usable as f64 / 2.0).sqrt() as u64),
+                ),
+            }),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Refuses pictures that do not fit into memory.
+pub(crate) fn check_image(width: u32, height: u32) -> Result<(), Error> {
+    let needed = u64::from(width) * u64::from(height) * BYTES_PER_PIXEL;
+    match usable_memory() {
+        Some(usable) if needed > usable => Err(Error::Resources {
+            problem: format!(
+                "pictures of {width} x {height} pixels need {} of memory, but only {} can be used",
+                bytes(needed),
+                bytes(usable),
+            ),
+            remedy: "make them smaller (--size)".to_owned(),
+        }),
+        _ => Ok(()),
+    }
+}
+
+fn usable_memory() -> Option<u64> {
+    free_memory().map(|free| (free as f64 * USABLE_SHARE) as u64)
 }
 
 /// What the machine, or the container it runs in, has left; unknown on rare systems.
@@ -143,12 +176,19 @@ mod tests {
 
     #[test]
     fn impossible_runs_are_refused_with_a_remedy() {
-        let error = Needs::of(1 << 20).check(None).unwrap_err().to_string();
+        let needs = |patches, points| Needs::of(patches, Estimator::Regular { points });
+        let error = needs(1 << 20, 3).check(None).unwrap_err().to_string();
         assert!(
             error.contains("1,048,576 patches need 2.2 TB of memory"),
             "{error}"
         );
         assert!(error.contains("use fewer patches"), "{error}");
-        assert!(Needs::of(100).check(None).is_ok());
+        assert!(needs(100, 3).check(None).is_ok());
+        assert!(needs(4000, 64).memory > 500_000_000, "points count too");
+        let error = check_image(1 << 16, 1 << 16).unwrap_err().to_string();
+        assert!(
+            error.contains("168 GB") && error.contains("--size"),
+            "{error}"
+        );
     }
 }

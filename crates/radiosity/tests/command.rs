@@ -389,25 +389,98 @@ fn failures_are_explained() {
     insta::assert_snapshot!(report);
 }
 
+/// Killed at many moments of its life, some of them while it writes.
 #[test]
 fn a_killed_run_leaves_nothing_broken() {
     let place = Place::new();
-    let arguments = "form-factors room.toml --cache c --patches 30 --points 6";
-    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_radiosity"))
-        .args(arguments.split(' '))
-        .current_dir(place.0.path())
-        .stdout(std::process::Stdio::null())
-        .stderr(std::process::Stdio::null())
-        .spawn()
-        .unwrap();
-    while !place.path("c").exists() {
-        std::thread::sleep(std::time::Duration::from_millis(5));
+    let arguments = "render room.toml --cache c --patches 20 --points 2 --format ppm";
+    for delay in 0..25 {
+        let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_radiosity"))
+            .args(arguments.split(' '))
+            .current_dir(place.0.path())
+            .stdout(std::process::Stdio::null())
+            .stderr(std::process::Stdio::null())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(5 * delay));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let list = place.succeed("cache list --cache c");
+        assert!(!list.contains("unusable"), "{list}");
+        if let Ok(picture) = fs::read(place.path("out/room-smooth.ppm")) {
+            assert_eq!(picture.len(), 13 + 3 * 16 * 12);
+        }
+        if delay % 5 == 0 {
+            place.succeed("cache clean --cache c");
+        }
     }
-    child.kill().unwrap();
-    child.wait().unwrap();
-    let list = place.succeed("cache list --cache c");
-    assert!(!list.contains("unusable"), "{list}");
     place.succeed("render room.toml --cache c");
+}
+
+#[test]
+fn runs_side_by_side_do_not_disturb_each_other() {
+    let place = Place::new();
+    std::thread::scope(|scope| {
+        for _ in 0..6 {
+            scope.spawn(|| place.succeed("render room.toml --cache c"));
+        }
+    });
+    assert!(
+        place
+            .succeed("cache list --cache c")
+            .contains("2 artifacts")
+    );
+    assert_eq!(fs::read_dir(place.path("out")).unwrap().count(), 4);
+}
+
+/// Nobody reads what is printed: no panic, and results all the same.
+#[test]
+fn a_closed_pipe_is_no_error() {
+    let place = Place::new();
+    for arguments in ["render room.toml --json", "check room.toml", "cache list"] {
+        let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_radiosity"))
+            .args(arguments.split(' '))
+            .current_dir(place.0.path())
+            .env("XDG_CACHE_HOME", place.path("platform-cache"))
+            .stdout(std::process::Stdio::piped())
+            .stderr(std::process::Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success(), "{arguments}: {stderr}");
+    }
+    assert!(place.path("out/room-smooth.png").is_file());
+}
+
+#[test]
+fn results_that_cannot_be_written_are_refused_before_the_work() {
+    let place = Place::new();
+    place.write("file", "");
+    for arguments in [
+        "render room.toml -o file",
+        "solve room.toml --export file/x.csv",
+    ] {
+        let (code, message) = place.fail(arguments);
+        assert_eq!(code, 1, "{message}");
+        assert!(
+            !place.path("platform-cache").exists(),
+            "nothing was computed"
+        );
+    }
+}
+
+#[test]
+fn stages_before_a_failure_are_reported() {
+    let place = Place::new();
+    place.write("hot.toml", NARROW_GAP);
+    let (code, stdout, _) = place.run("solve hot.toml --no-cache");
+    assert_eq!(code, 5);
+    assert!(
+        stdout.contains("form factors") && stdout.contains("warning"),
+        "{stdout}"
+    );
 }
 
 #[test]

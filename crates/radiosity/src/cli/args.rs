@@ -199,7 +199,8 @@ pub enum CacheAction {
 pub enum ModeArg {
     /// Fixed points on each patch, all pairs of them
     Regular,
-    /// Random points; unbounded variance where patches touch
+    /// Random points; its variance is unbounded where patches touch, so it needs many pairs
+    /// there, or the solution may not exist
     MonteCarlo,
 }
 

@@ -2,6 +2,7 @@
 
 use super::args::{CacheAction, CacheCommand};
 use super::site::Site;
+use super::terminal::say;
 use crate::error::Error;
 use crate::resources::bytes;
 use radiosity_cache::{Entry, Store};
@@ -14,8 +15,10 @@ pub(crate) fn run(command: &CacheCommand, site: &Site) -> Result<(), Error> {
         CacheAction::Clean => {
             let (files, size) = store.clean()?;
             let folder = folder.display();
-            println!("removed {files} files ({}) from {folder}", bytes(size));
-            Ok(())
+            say(&format!(
+                "removed {files} files ({}) from {folder}",
+                bytes(size)
+            ))
         }
     }
 }
@@ -23,12 +26,11 @@ pub(crate) fn run(command: &CacheCommand, site: &Site) -> Result<(), Error> {
 fn list(store: &Store) -> Result<(), Error> {
     let entries = store.list()?;
     for entry in &entries {
-        println!("{}", describe(entry));
+        say(&describe(entry))?;
     }
     let size = entries.iter().map(|entry| entry.bytes).sum();
     let (count, folder) = (entries.len(), store.folder().display());
-    println!("{count} artifacts ({}) in {folder}", bytes(size));
-    Ok(())
+    say(&format!("{count} artifacts ({}) in {folder}", bytes(size)))
 }
 
 fn describe(entry: &Entry) -> String {

@@ -6,15 +6,16 @@ use super::args::{
 };
 use super::cache_folder;
 use super::site::Site;
-use super::terminal::Terminal;
+use super::terminal::{Terminal, say};
 use crate::artifact::Sources;
 use crate::error::Error;
 use crate::export::radiosity_csv;
 use crate::pipeline::Pipeline;
-use crate::report::{DisplayReport, Report, check_lines};
+use crate::report::{DisplayReport, Report, check_lines, needs_of};
 use radiosity_cache::{Store, replace_file};
 use radiosity_renderer::{Image, PictureFormat, Pictures, ToneMap, encode};
 use radiosity_scene::{ImageSettings, Scene};
+use radiosity_solver::Solution;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -23,8 +24,7 @@ use std::time::Instant;
 /// Runs a command and prints what it has to say; the exit code is 0, or that of the error.
 pub fn run(command: &Command, site: &Site) -> ExitCode {
     let result = match command {
-        Command::Render(args) => display(args, site, Sources::Cached),
-        Command::Display(args) => display(args, site, Sources::Cached),
+        Command::Render(args) | Command::Display(args) => display(args, site),
         Command::FormFactors(args) => form_factors(args, site),
         Command::Solve(args) => solve(args, site),
         Command::Check(args) => check(args, site),
@@ -42,104 +42,121 @@ pub fn run(command: &Command, site: &Site) -> ExitCode {
 fn form_factors(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
     let mut scene = site.load(&args.scene.scene)?;
     args.scene.apply(&mut scene);
+    args.estimate.apply(&mut scene);
     let sources = if args.recompute {
         Sources::Computed
     } else {
         Sources::Cached
     };
-    with_pipeline(&mut scene, &args.estimate, site, |pipeline, report, _| {
+    let terminal = Terminal::new(args.estimate.json);
+    with_threads(args.estimate.threads, || {
+        let store = store(&args.estimate, site);
+        let pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
+        let mut report = Report::new(&scene, pipeline.mesh(), &terminal);
         let made = pipeline.form_factors(sources)?;
-        report.form_factors(&made.origin, &made.rows, pipeline);
-        Ok(())
+        report.form_factors(&made.origin, &made.rows, &pipeline);
+        report.finish()
     })
 }
 
 fn solve(args: &SolveCommand, site: &Site) -> Result<(), Error> {
     let mut scene = site.load(&args.scene.scene)?;
     args.scene.apply(&mut scene);
+    args.estimate.apply(&mut scene);
     args.solve.apply(&mut scene);
-    with_pipeline(
-        &mut scene,
-        &args.estimate,
-        site,
-        |pipeline, report, scene| {
-            let solved = pipeline.solution(Sources::Computed)?;
-            report.form_factors(&solved.form_factors, &solved.rows, pipeline);
-            report.solution(&solved.origin, &solved.solution);
-            if let Some(path) = &args.export {
-                let csv = radiosity_csv(scene, pipeline.mesh(), &solved.solution);
-                write(path, &csv)?;
-                report.output("export", path);
-            }
-            Ok(())
-        },
-    )
+    if let Some(folder) = args.export.as_ref().and_then(|path| path.parent()) {
+        make_folder(folder)?;
+    }
+    let terminal = Terminal::new(args.estimate.json);
+    with_threads(args.estimate.threads, || {
+        let store = store(&args.estimate, site);
+        let pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
+        let mut report = Report::new(&scene, pipeline.mesh(), &terminal);
+        let solution = reported_solution(&pipeline, Sources::Computed, &mut report)?;
+        if let Some(path) = &args.export {
+            write(path, &radiosity_csv(&scene, pipeline.mesh(), &solution))?;
+            report.output("export", path);
+        }
+        report.finish()
+    })
 }
 
-fn display(args: &DisplayCommand, site: &Site, sources: Sources) -> Result<(), Error> {
+fn display(args: &DisplayCommand, site: &Site) -> Result<(), Error> {
     let mut scene = site.load(&args.scene.scene)?;
     args.scene.apply(&mut scene);
+    args.estimate.apply(&mut scene);
     args.solve.apply(&mut scene);
     args.display.apply(&mut scene);
     if scene.camera.is_none() {
         return Err(Error::NoCamera);
     }
-    with_pipeline(
-        &mut scene,
-        &args.estimate,
-        site,
-        |pipeline, report, scene| {
-            let solved = pipeline.solution(sources)?;
-            report.form_factors(&solved.form_factors, &solved.rows, pipeline);
-            report.solution(&solved.origin, &solved.solution);
-            let start = Instant::now();
-            let pictures = pipeline.pictures(&solved.solution)?;
-            let folder = args.display.output.as_ref().unwrap_or(&site.output);
-            let outputs = save(&pictures, scene, &args.display, folder)?;
-            report.display(DisplayReport {
-                seconds: start.elapsed().as_secs_f64(),
-            });
-            for (name, path) in outputs {
-                report.output(&name, &path);
-            }
-            Ok(())
-        },
-    )
+    let folder = args.display.output.as_ref().unwrap_or(&site.output);
+    make_folder(folder)?;
+    let terminal = Terminal::new(args.estimate.json);
+    with_threads(args.estimate.threads, || {
+        let store = store(&args.estimate, site);
+        let pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
+        let mut report = Report::new(&scene, pipeline.mesh(), &terminal);
+        let solution = reported_solution(&pipeline, Sources::Cached, &mut report)?;
+        let start = Instant::now();
+        let pictures = pipeline.pictures(&solution)?;
+        let outputs = save(&pictures, &scene, &args.display, folder)?;
+        report.display(DisplayReport {
+            seconds: start.elapsed().as_secs_f64(),
+        });
+        for (name, path) in outputs {
+            report.output(&name, &path);
+        }
+        report.finish()
+    })
 }
 
 fn check(args: &CheckArgs, site: &Site) -> Result<(), Error> {
     let mut scene = site.load(&args.scene.scene)?;
     args.scene.apply(&mut scene);
-    check_lines(&scene)?
-        .iter()
-        .for_each(|line| println!("{line}"));
-    Ok(())
+    for line in check_lines(&scene)? {
+        say(&line)?;
+    }
+    needs_of(&scene)?.check_memory()
 }
 
-/// Sets up what all stages need, runs some of them, and prints the report.
-fn with_pipeline(
-    scene: &mut Scene,
-    args: &EstimateArgs,
-    site: &Site,
-    stages: impl FnOnce(&Pipeline<'_>, &mut Report<'_>, &Scene) -> Result<(), Error> + Send,
+/// The solution, with each stage reported as soon as it is done.
+fn reported_solution(
+    pipeline: &Pipeline<'_>,
+    sources: Sources,
+    report: &mut Report<'_>,
+) -> Result<Solution, Error> {
+    let solved = pipeline.solution_after(sources, &mut |origin, rows| {
+        report.form_factors(origin, rows, pipeline);
+    })?;
+    report.solution(&solved.origin, &solved.solution);
+    Ok(solved.solution)
+}
+
+fn store(args: &EstimateArgs, site: &Site) -> Option<Store> {
+    let folder = args.cache.folder.as_ref().unwrap_or(&site.cache);
+    (!args.cache.no_cache).then(|| Store::new(folder))
+}
+
+/// Runs with so many threads, or as many as there are processors.
+fn with_threads(
+    threads: Option<u32>,
+    run: impl FnOnce() -> Result<(), Error> + Send,
 ) -> Result<(), Error> {
-    args.apply(scene);
-    let store = (!args.cache.no_cache)
-        .then(|| Store::new(args.cache.folder.as_ref().unwrap_or(&site.cache)));
-    let terminal = Terminal::new(args.json);
-    let mut threads = rayon::ThreadPoolBuilder::new();
-    if let Some(count) = args.threads {
-        threads = threads.num_threads(count as usize);
-    }
-    let pool = threads.build().expect("the system can start threads");
-    pool.install(|| {
-        let pipeline = Pipeline::new(scene, store.as_ref(), &terminal)?;
-        let mut report = Report::new(scene, pipeline.mesh(), &terminal);
-        stages(&pipeline, &mut report, scene)?;
-        if args.json {
-            println!("{}", report.json());
-        }
-        Ok(())
+    let count = threads.map_or(0, |count| count as usize);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
+    let pool = pool.map_err(|error| Error::Resources {
+        problem: format!("cannot start threads: {error}"),
+        remedy: "use fewer (--threads)".to_owned(),
+    })?;
+    pool.install(run)
+}
+
+/// Makes the folder of a result before anything is computed for it.
+fn make_folder(folder: &Path) -> Result<(), Error> {
+    std::fs::create_dir_all(folder).map_err(|error| Error::Output {
+        path: folder.to_owned(),
+        error,
     })
 }
 
@@ -151,10 +168,6 @@ fn save(
     args: &DisplayArgs,
     folder: &Path,
 ) -> Result<BTreeMap<String, PathBuf>, Error> {
-    std::fs::create_dir_all(folder).map_err(|error| Error::Output {
-        path: folder.to_owned(),
-        error,
-    })?;
     let mut outputs = BTreeMap::new();
     for (kind, image) in [
         ("constant", &pictures.constant),
@@ -173,7 +186,10 @@ fn save(
             } else {
                 format!("{kind}_{label}")
             };
-            outputs.insert(name, path);
+            // The same format twice is the same file once.
+            if !outputs.values().any(|known| *known == path) {
+                outputs.insert(name, path);
+            }
         }
     }
     Ok(outputs)

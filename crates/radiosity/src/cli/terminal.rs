@@ -1,15 +1,27 @@
 //! Progress bars, notes and lines on the terminal.
 
+use crate::error::Error;
 use crate::observer::{Observer, Stage};
 use indicatif::{ProgressBar, ProgressStyle};
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::sync::Mutex;
+
+/// Prints a line on standard output. That nobody reads it any more (`| head`) is no error.
+pub(crate) fn say(text: &str) -> Result<(), Error> {
+    match writeln!(std::io::stdout(), "{text}") {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Error::Output {
+            path: "standard output".into(),
+            error,
+        }),
+        _ => Ok(()),
+    }
+}
 
 /// Shows progress on standard error if that is a terminal, and prints lines.
 pub(crate) struct Terminal {
     bar: Mutex<Option<ProgressBar>>,
     /// Whether lines for people go to standard error, to leave standard output to JSON.
-    json: bool,
+    pub(crate) json: bool,
 }
 
 impl Terminal {
