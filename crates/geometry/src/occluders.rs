@@ -212,15 +212,14 @@ impl Occluders {
     /// exactly on a face does not hide it. Segments that graze an edge are decided by rounding,
     /// but the same way from either end.
     pub fn blocked(&self, sight: &Sight, i: FaceId, p: DVec3, j: FaceId, q: DVec3) -> bool {
-        let (p, q) = if p.to_array() <= q.to_array() {
-            (p, q)
-        } else {
-            (q, p)
-        };
         match &sight.0 {
             Between::Nothing => false,
-            Between::Few(few) => few.faces[..few.count].iter().any(|&f| self.cuts(f, p, q)),
+            Between::Few(few) => {
+                let (p, q) = ordered(p, q);
+                few.faces[..few.count].iter().any(|&f| self.cuts(f, p, q))
+            }
             Between::Anything => {
+                let (p, q) = ordered(p, q);
                 let ray = Ray::new(p, q - p);
                 let mut found = false;
                 self.tree.along(&ray, 0.0, 1.0, |item, _| {
@@ -239,5 +238,14 @@ impl Occluders {
         at_p * at_q < 0.0
             && nearer > self.plane_tolerance
             && Ray::new(p, q - p).pierces(&face.corners)
+    }
+}
+
+/// The ends of a segment in an order that does not depend on which one was named first.
+fn ordered(p: DVec3, q: DVec3) -> (DVec3, DVec3) {
+    if p.to_array() <= q.to_array() {
+        (p, q)
+    } else {
+        (q, p)
     }
 }

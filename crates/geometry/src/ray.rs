@@ -14,7 +14,6 @@ pub struct Ray {
     pub origin: DVec3,
     /// Where it goes; any non-zero length.
     pub direction: DVec3,
-    inverse_direction: DVec3,
     axes: [usize; 3],
     shear: [f64; 2],
 }
@@ -32,7 +31,6 @@ impl Ray {
         Ray {
             origin,
             direction,
-            inverse_direction: direction.map(finite_inverse),
             axes,
             shear: [direction[axes[0]] / along, direction[axes[1]] / along],
         }
@@ -45,8 +43,9 @@ impl Ray {
 
     /// Where the ray enters a box, if that happens at a parameter in `from..=to`.
     pub(crate) fn enters(&self, bounds: &Aabb, from: f64, to: f64) -> Option<f64> {
-        let a = (bounds.min - self.origin) * self.inverse_direction;
-        let b = (bounds.max - self.origin) * self.inverse_direction;
+        let inverse = self.direction.map(finite_inverse);
+        let a = (bounds.min - self.origin) * inverse;
+        let b = (bounds.max - self.origin) * inverse;
         let entry = a.min(b).max_element().max(from);
         let exit = (a.max(b) * SLAB_EXIT).min_element().min(to);
         (entry <= exit).then_some(entry)
