@@ -1,0 +1,33 @@
+//! Means with standard errors.
+
+use crate::Rgb;
+
+/// Running sums of independent samples (Welford, "Note on a Method for Calculating Corrected
+/// Sums of Squares and Products", 1962).
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Samples {
+    count: f64,
+    mean: Rgb,
+    squares: Rgb,
+}
+
+impl Samples {
+    pub(crate) fn add(&mut self, sample: Rgb) {
+        self.count += 1.0;
+        for (c, value) in sample.into_iter().enumerate() {
+            let before = value - self.mean[c];
+            self.mean[c] += before / self.count;
+            self.squares[c] += before * (value - self.mean[c]);
+        }
+    }
+
+    pub(crate) fn mean(&self) -> Rgb {
+        self.mean
+    }
+
+    /// The standard error of the mean; zero for a single sample.
+    pub(crate) fn standard_error(&self) -> Rgb {
+        let pairs = (self.count * (self.count - 1.0)).max(1.0);
+        self.squares.map(|squares| (squares / pairs).sqrt())
+    }
+}

@@ -1,0 +1,145 @@
+//! The oracle against closed forms and against radiosities traced by an independent program.
+
+use radiosity_geometry::{Divisions, Mesh, subdivide};
+use radiosity_reference::{CellMean, cell_means};
+use radiosity_scene::{Scene, load, parse};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+fn in_checkout(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../..")
+        .join(path)
+}
+
+fn cut(scene: &Scene, n: u32) -> Mesh {
+    subdivide(&scene.geometry, Divisions::uniform(n)).unwrap()
+}
+
+fn means(scene: &Scene, mesh: &Mesh, samples: u32, seed: u64) -> Vec<CellMean> {
+    cell_means(scene, mesh, samples, seed, &|_| ())
+}
+
+/// Deviations from known values in units of the standard error, channel by channel.
+fn deviations(found: &CellMean, expected: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|c| (found.radiosity[c] - expected[c]) / found.standard_error[c])
+}
+
+/// B = E / (1 - rho) in every cell; corners included, where emitters touch.
+#[test]
+fn the_furnace_is_exact() {
+    let scene = load(&in_checkout("scenes/furnace.toml")).unwrap();
+    let mesh = cut(&scene, 2);
+    let mut worst: f64 = 0.0;
+    for cell in means(&scene, &mesh, 20_000, 1) {
+        for deviation in deviations(&cell, [1.25, 2.0, 5.0]) {
+            worst = worst.max(deviation.abs());
+        }
+        assert!(cell.standard_error[1] < 0.01);
+    }
+    // The largest of 72 normal deviates exceeds 4.5 once in 2,000 times.
+    assert!(worst < 4.5, "{worst}");
+}
+
+/// A black receiver would show nothing; with reflectance rho it shows rho F E to first order,
+/// and the emitter is black, so to all orders. F of opposed unit squares at distance 1.
+#[test]
+fn one_emitter_and_one_receiver_give_the_form_factor() {
+    let text = r#"
+        materials.lamp = { reflectance = 0, emission = 1 }
+        materials.white = { reflectance = 0.5 }
+        [[surfaces]]
+        name = "below"
+        material = "white"
+        quad = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+        [[surfaces]]
+        name = "above"
+        material = "lamp"
+        quad = [[0, 0, 1], [0, 1, 1], [1, 1, 1], [1, 0, 1]]
+    "#;
+    let scene = parse(Path::new("pair.toml"), text).unwrap();
+    let mesh = cut(&scene, 1);
+    let cells = means(&scene, &mesh, 400_000, 3);
+    let expected = 0.5 * 0.199_824_896;
+    assert!(deviations(&cells[0], [expected; 3])[0].abs() < 4.0);
+    assert!(cells[0].standard_error[0] < 1e-3 * expected);
+    assert_eq!(cells[1].radiosity, [1.0; 3]);
+}
+
+/// The table was made by another program, from 576 million paths.
+#[test]
+fn an_independent_program_agrees() {
+    let scene = load(&in_checkout("scenes/cornell.toml")).unwrap();
+    let mesh = cut(&scene, 12);
+    let found = means(&scene, &mesh, 1000, 7);
+    let path = in_checkout("tests/data/cornell-radiosity-12x12.csv");
+    let mut table = HashMap::new();
+    for row in csv::Reader::from_path(path).unwrap().records() {
+        let row = row.unwrap();
+        let number = |k: usize| row[k].parse::<f64>().unwrap();
+        let key = (row[0].to_owned(), number(1) as u32, number(2) as u32);
+        table.insert(key, std::array::from_fn::<f64, 6, _>(|k| number(3 + k)));
+    }
+    let (mut chi_square, mut count) = (0.0, 0.0);
+    let (mut sum, mut expected_sum, mut variance) = (0.0, 0.0, 0.0);
+    for (patch, cell) in mesh.patches.iter().zip(&found) {
+        let name = scene.surfaces[patch.surface.index()].name.clone();
+        if ["light", "front", "cuboid-back"].contains(&name.as_str()) {
+            continue;
+        }
+        let reference = table[&(name, patch.cell[0], patch.cell[1])];
+        for c in 0..3 {
+            let error = cell.standard_error[c].hypot(reference[3 + c]);
+            let difference = cell.radiosity[c] - reference[c];
+            if error > 0.0 {
+                chi_square += (difference / error).powi(2);
+                count += 1.0;
+            }
+            sum += patch.area * cell.radiosity[c];
+            expected_sum += patch.area * reference[c];
+            variance += (patch.area * error).powi(2);
+        }
+    }
+    // Cells that hardly any walk brings light to are not normal, and their few hits make the
+    // quotient heavy-tailed; all others bring it to 1 within sqrt(2 / count) = 0.02.
+    let per_cell = chi_square / count;
+    println!("chi-square {per_cell:.3} per value over {count} values");
+    println!("total power {:+.3} %", 100.0 * (sum / expected_sum - 1.0));
+    assert!((0.9..1.15).contains(&per_cell), "{per_cell}");
+    // Channels of a walk are correlated: three times as much variance at most.
+    let error = (3.0 * variance).sqrt();
+    assert!(
+        (sum - expected_sum).abs() < 3.0 * error,
+        "{sum} {expected_sum}"
+    );
+    assert!(error < 2e-3 * expected_sum);
+}
+
+/// At least 95 % of means within two standard errors of the truth, over repeats.
+#[test]
+fn standard_errors_hold() {
+    let scene = load(&in_checkout("scenes/furnace.toml")).unwrap();
+    let mesh = cut(&scene, 1);
+    let (mut within, mut count) = (0, 0);
+    for seed in 0..60 {
+        for cell in means(&scene, &mesh, 500, 100 + seed) {
+            within += usize::from(deviations(&cell, [1.25, 2.0, 5.0])[1].abs() < 2.0);
+            count += 1;
+        }
+    }
+    let share = f64::from(within as u32) / f64::from(count as u32);
+    println!("{:.1} % within two standard errors", 100.0 * share);
+    // 360 means: one standard deviation of the share is 1.1 %.
+    assert!(share > 0.92, "{share}");
+}
+
+#[test]
+fn dark_scenes_are_dark() {
+    let mut scene = load(&in_checkout("scenes/cornell.toml")).unwrap();
+    for material in &mut scene.materials {
+        material.emission = [0.0; 3];
+    }
+    let mesh = cut(&scene, 1);
+    let dark = |cell: &CellMean| cell.radiosity == [0.0; 3];
+    assert!(means(&scene, &mesh, 10, 1).iter().all(dark));
+}
