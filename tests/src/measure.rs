@@ -12,6 +12,8 @@ pub struct Errors {
     pub rmse: f64,
     /// Mean difference.
     pub bias: f64,
+    /// Over how many values, channels counted apart.
+    pub values: usize,
 }
 
 /// Sums of weighted differences.
@@ -21,6 +23,7 @@ struct Sums {
     reference: f64,
     difference: f64,
     square: f64,
+    values: usize,
 }
 
 impl Sums {
@@ -30,6 +33,7 @@ impl Sums {
         self.reference += weight * reference;
         self.difference += weight * difference;
         self.square += weight * difference * difference;
+        self.values += 1;
     }
 
     fn errors(&self) -> Errors {
@@ -37,6 +41,7 @@ impl Sums {
         Errors {
             rmse: 100.0 * (self.square / self.weight).sqrt() / mean,
             bias: 100.0 * self.difference / self.weight / mean,
+            values: self.values,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Turns a [`Scene`](radiosity_scene::Scene) into unbiased path-traced radiosities with standard
-//! errors ([`cell_means`]): the oracle that the finite elements are judged by.
+//! errors ([`cell_means`]) and pictures ([`picture`]): the oracle that the finite elements are
+//! judged by.
 //!
 //! The conventions are those of the whole project: the front of a surface emits and reflects
 //! diffusely, both sides block, backs and the background are black.
@@ -10,10 +11,12 @@
 mod cells;
 mod emitters;
 mod path;
+mod picture;
 mod statistics;
 mod world;
 
 pub use cells::{CellMean, cell_means};
+pub use picture::{TracedPicture, picture};
 
 /// Red, green, blue.
 pub type Rgb = [f64; 3];

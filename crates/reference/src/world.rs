@@ -46,9 +46,18 @@ impl World {
     /// The first front that a ray from a face meets, and where; `None` for backs and for the
     /// background.
     pub(crate) fn next_front(&self, from: FaceId, ray: &Ray) -> Option<(FaceId, DVec3)> {
+        self.front(ray, 0.0, Some(from))
+    }
+
+    /// The first front that a ray from anywhere meets at a parameter from `near` on.
+    pub(crate) fn first_front(&self, ray: &Ray, near: f64) -> Option<(FaceId, DVec3)> {
+        self.front(ray, near, None)
+    }
+
+    fn front(&self, ray: &Ray, near: f64, except: Option<FaceId>) -> Option<(FaceId, DVec3)> {
         let hit = self
             .occluders
-            .closest_hit(ray, 0.0, f64::INFINITY, Some(from))?;
+            .closest_hit(ray, near, f64::INFINITY, except)?;
         hit.front.then(|| (hit.face, ray.at(hit.t)))
     }
 

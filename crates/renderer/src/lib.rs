@@ -10,7 +10,6 @@
 mod bicubic;
 mod encode;
 mod fields;
-mod filter;
 mod hanging;
 mod image;
 mod interpolate;

@@ -1,12 +1,11 @@
 //! Stage 4: rays from the camera.
 
 use crate::fields::Fields;
-use crate::filter::SubpixelTents;
 use crate::image::Image;
 use crate::interpolate::{DEFAULT_CREASE_ANGLE, Interpolant};
 use crate::{Rgb, add_scaled};
-use radiosity_geometry::{Camera, Mesh, Occluders};
-use rand::SeedableRng;
+use radiosity_geometry::{Camera, DVec2, Mesh, Occluders, SubpixelTents};
+use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
 use std::f32::consts::PI;
@@ -104,13 +103,15 @@ impl View<'_> {
         } = *self.params;
         let stream = (u64::from(y) << 32 | u64::from(x)) ^ seed.rotate_left(17);
         let mut rng = Pcg64Mcg::seed_from_u64(stream);
-        let filter = SubpixelTents { subpixels, samples };
-        let weight = 1.0 / (PI * filter.count() as f32);
+        let filter = SubpixelTents { subpixels };
+        let count = filter.parts() * samples;
+        let weight = 1.0 / (PI * count as f32);
         let (mut constant, mut smooth) = ([0.0; 3], [0.0; 3]);
-        for index in 0..filter.count() {
-            let (dx, dy) = filter.offset(index, &mut rng);
-            let film_x = (f64::from(x) + dx) / f64::from(width);
-            let film_y = (f64::from(y) + dy) / f64::from(height);
+        for index in 0..count {
+            let uniform = DVec2::new(rng.random(), rng.random());
+            let offset = filter.offset(index / samples, uniform);
+            let film_x = (f64::from(x) + offset.x) / f64::from(width);
+            let film_y = (f64::from(y) + offset.y) / f64::from(height);
             if let Some(both) = self.radiosity(film_x, film_y) {
                 add_scaled(&mut constant, weight, both.0);
                 add_scaled(&mut smooth, weight, both.1);
