@@ -1,6 +1,7 @@
 //! The whole chain against path-traced truth.
 
 use radiosity::renderer::Image;
+use radiosity_reference::Tracer;
 use radiosity_tests::{
     Errors, picture_errors, pipeline, radiance, radiosity_errors, radiosity_table, regions,
     shipped, solve,
@@ -65,7 +66,9 @@ fn triangles_are_as_good_as_rectangles() {
 fn the_oracle_agrees_with_the_reference_picture() {
     let scene = shipped("cornell");
     let camera = scene.camera.as_ref().unwrap();
-    let traced = radiosity_reference::picture(&scene, camera, 4, 1, &|_| ()).unwrap();
+    let mut tracer = Tracer::new(&scene, camera, 1).unwrap();
+    tracer.pass(&|_| ());
+    let traced = tracer.picture();
     let to_f32 = |pixel: &[f64; 3]| pixel.map(|channel| channel as f32);
     let found = Image {
         width: traced.width,

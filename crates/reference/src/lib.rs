@@ -1,5 +1,5 @@
 //! Turns a [`Scene`](radiosity_scene::Scene) into unbiased path-traced radiosities with standard
-//! errors ([`cell_means`]) and pictures ([`picture`]): the oracle that the finite elements are
+//! errors ([`cell_means`]) and pictures ([`Tracer`]): the oracle that the finite elements are
 //! judged by.
 //!
 //! The conventions are those of the whole project: the front of a surface emits and reflects
@@ -16,7 +16,7 @@ mod statistics;
 mod world;
 
 pub use cells::{CellMean, cell_means};
-pub use picture::{TracedPicture, picture};
+pub use picture::{TracedPicture, Tracer};
 
 /// Red, green, blue.
 pub type Rgb = [f64; 3];

@@ -25,7 +25,7 @@ impl Samples {
         self.mean
     }
 
-    /// The standard error of the mean; zero for a single sample.
+    /// The standard error of the mean; zero for fewer than two samples.
     pub(crate) fn standard_error(&self) -> Rgb {
         let pairs = (self.count * (self.count - 1.0)).max(1.0);
         self.squares.map(|squares| (squares / pairs).sqrt())

@@ -1,7 +1,7 @@
 //! The oracle against closed forms and against radiosities traced by an independent program.
 
 use radiosity_geometry::{Divisions, Mesh, subdivide};
-use radiosity_reference::{CellMean, cell_means};
+use radiosity_reference::{CellMean, Tracer, cell_means};
 use radiosity_scene::{Scene, load, parse};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -131,6 +131,46 @@ fn standard_errors_hold() {
     println!("{:.1} % within two standard errors", 100.0 * share);
     // 360 means: one standard deviation of the share is 1.1 %.
     assert!(share > 0.92, "{share}");
+}
+
+/// In a furnace the picture is E / (1 - rho) / pi everywhere, its own estimate of its error
+/// holds, and threads leave no trace.
+#[test]
+fn pictures_are_exact_and_know_their_error() {
+    let mut scene = load(&in_checkout("scenes/furnace.toml")).unwrap();
+    (scene.image.width, scene.image.height) = (32, 24);
+    let camera = scene.camera.as_ref().unwrap();
+    let trace = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| {
+            let mut tracer = Tracer::new(&scene, camera, 5).unwrap();
+            (0..64).for_each(|_| tracer.pass(&|_| ()));
+            assert_eq!(tracer.samples(), 256);
+            (tracer.picture(), tracer.relative_error(0.0))
+        })
+    };
+    let (picture, relative_error) = trace(1);
+    assert_eq!((&picture, relative_error), (&trace(3).0, relative_error));
+    let expected = [1.25, 2.0, 5.0].map(|b| b / std::f64::consts::PI);
+    let mut squares = 0.0;
+    let mut within = 0;
+    for (pixel, error) in picture.radiance.iter().zip(&picture.standard_error) {
+        for c in 0..3 {
+            squares += (pixel[c] - expected[c]).powi(2);
+        }
+        within += usize::from((pixel[1] - expected[1]).abs() < 2.0 * error[1]);
+    }
+    let pixels = picture.radiance.len() as f64;
+    let rms = (squares / (3.0 * pixels)).sqrt() / (expected.iter().sum::<f64>() / 3.0);
+    // 768 pixels know their common error to some 5 %, and the share within to 0.8 %.
+    assert!(
+        (rms / relative_error - 1.0).abs() < 0.2,
+        "{rms} {relative_error}"
+    );
+    assert!(within as f64 / pixels > 0.92);
 }
 
 #[test]
