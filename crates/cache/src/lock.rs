@@ -39,12 +39,15 @@ impl Lock {
     }
 
     /// Takes the lock file at `path` if nobody has it.
-    pub(crate) fn try_take(path: PathBuf) -> Option<Lock> {
+    pub(crate) fn try_take(path: PathBuf) -> std::io::Result<Option<Lock>> {
         let mut options = OpenOptions::new();
         let file = options.create(true).truncate(false).write(true);
-        let file = file.open(&path).ok()?;
-        let ours = file.try_lock().is_ok() && is_still_at(&file, &path);
-        ours.then_some(Lock { path, _file: file })
+        let file = file.open(&path)?;
+        match file.try_lock() {
+            Ok(()) if is_still_at(&file, &path) => Ok(Some(Lock { path, _file: file })),
+            Ok(()) | Err(TryLockError::WouldBlock) => Ok(None),
+            Err(TryLockError::Error(error)) => Err(error),
+        }
     }
 }
 

@@ -69,13 +69,16 @@ impl<F> Artifact<F> {
     /// The big array, its digests checked.
     pub fn into_values(self) -> Result<(F, MappedValues), Miss> {
         let digests = format::block_digests(self.values.as_ref());
-        let damaged = digests
+        let is_good = |(found, expected)| found == expected;
+        let good = digests
             .iter()
             .zip(&self.block_digests)
-            .position(|(found, expected)| found != expected);
-        match damaged {
-            Some(block) => Err(Miss::Block { block }),
-            None => Ok((self.facts, self.values)),
+            .take_while(|&pair| is_good(pair));
+        match good.count() {
+            all if all == digests.len() && all == self.block_digests.len() => {
+                Ok((self.facts, self.values))
+            }
+            block => Err(Miss::Block { block }),
         }
     }
 }
@@ -159,10 +162,12 @@ impl Store {
     pub fn clean(&self) -> Result<(usize, u64), CacheError> {
         let (mut count, mut bytes) = (0, 0);
         for file in self.files()? {
-            // Dropping the lock removes the lock file.
-            let Some(_lock) = Lock::try_take(lock_of(&file.artifact)) else {
+            let lock = lock_of(&file.artifact);
+            let taken = Lock::try_take(lock.clone()).map_err(CacheError::new("lock", &lock))?;
+            let Some(_lock) = taken else {
                 continue;
             };
+            // Dropping the lock removes its file, where the system allows that.
             if file.path == lock_of(&file.artifact) {
                 continue;
             }

@@ -171,7 +171,7 @@ impl Occluders {
     ///
     /// `from` is a part of face `i`, `to` a part of face `j`. Neither face counts, nor does
     /// anything outside the box around both polygons, behind either plane, or with both
-    /// polygons on one side of it.
+    /// polygons on one side of it; rounding counts as on the plane.
     pub fn sight(&self, i: FaceId, from: &Polygon, j: FaceId, to: &Polygon) -> Sight {
         let shaft = from.bounds().union(to.bounds());
         let mut few = FewFaces {

@@ -10,9 +10,11 @@ use crate::bounds::Aabb;
 use crate::ray::Ray;
 use glam::{DVec3, Vec4, Vec4Swizzles};
 
-/// Of the scene's extent: the origin and the box each round by half of 2^-23.
+/// Of the scene's extent: the origin and the box each round by at most 2^-25 of it (coordinates
+/// reach half the extent); eight times that, to be safe.
 const PADDING: f64 = 1.0 / (1 << 22) as f64;
-/// Direction, its inverse, difference and product round by 2^-24 each, twice; doubled.
+/// Direction, its inverse, the difference and the product round by 2^-24 each, on entry and on
+/// exit: 5e-7; doubled, to be safe.
 const RELATIVE_ERROR: f32 = 1e-6;
 
 /// Two boxes, by axis: `(min of 0, min of 1, max of 0, max of 1)`.
@@ -30,6 +32,7 @@ pub(crate) struct SlabRay {
 }
 
 impl BoxPair {
+    /// Boxes of nothing. A ray may be said to enter them; their children hold no items.
     pub(crate) const EMPTY: BoxPair = BoxPair {
         axes: [Vec4::new(
             f32::INFINITY,
@@ -102,7 +105,7 @@ impl SlabRay {
 
     /// A parameter of the ray as boxes count it, rounded up.
     pub(crate) fn parameter(&self, t: f64) -> f32 {
-        (t - self.start) as f32 * (1.0 + RELATIVE_ERROR)
+        (t - self.start).max(0.0) as f32 * (1.0 + RELATIVE_ERROR)
     }
 }
 

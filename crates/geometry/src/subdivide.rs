@@ -65,7 +65,7 @@ pub enum MeshError {
         surface: SurfaceId,
     },
     /// More patches than indices can name.
-    #[error("the subdivision gives more than {MAX_PATCHES} patches; choose a coarser one")]
+    #[error("the subdivision gives more than 1,048,576 patches; choose a coarser one")]
     TooManyPatches,
     /// There is nothing to cut.
     #[error("the scene has no surfaces")]

@@ -152,10 +152,16 @@ fn angle_at(corners: &[DVec3], index: usize) -> f64 {
     let n = corners.len();
     let here = corners[index];
     let [next, previous] = [corners[(index + 1) % n], corners[(index + n - 1) % n]];
-    (next - here).angle_between(previous - here)
+    let (a, b) = (next - here, previous - here);
+    // Unlike the inverse cosine, right for slivers too.
+    a.cross(b).length().atan2(a.dot(b))
 }
 
-/// Positions in a hash grid whose cells are four times as wide as the distance that welds.
+/// Cells of the hash grid, in distances that weld: wide enough that a point rarely looks into
+/// more than one.
+const CELL_WIDTH: f64 = 4.0;
+
+/// Positions in a hash grid.
 struct Vertices {
     distance: f64,
     cells: HashMap<[i64; 3], Vec<usize>>,
@@ -189,7 +195,7 @@ impl Vertices {
     }
 
     fn cell(&self, point: DVec3) -> [i64; 3] {
-        (point / (4.0 * self.distance))
+        (point / (CELL_WIDTH * self.distance))
             .floor()
             .to_array()
             .map(|x| x as i64)

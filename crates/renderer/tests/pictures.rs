@@ -213,6 +213,21 @@ fn shading_does_not_depend_on_where_the_scene_is() {
     }
 }
 
+/// A sliver has an angle of nearly nothing at its middle corner, and must not spoil the rest.
+#[test]
+fn slivers_do_no_harm() {
+    let positions = [[0.0, 0.0], [1.0, 0.0], [1.0, 3e-9], [2.0, 0.0], [1.5, 1.0]]
+        .map(|[x, y]| DVec3::new(x, y, 0.0))
+        .to_vec();
+    let faces = vec![vec![0, 1, 2], vec![1, 3, 4]];
+    let mesh = cut(vec![Shape::Mesh(PolygonMesh { positions, faces })], 1);
+    let center = DVec3::new(1.5, 0.4, 0.0);
+    let picture = with_fields(&[[2.0; 3]; 2], |f| view(&mesh, f, center, 0.2, 8)).smooth;
+    for pixel in &picture.pixels {
+        assert!((pixel[0] * PI - 2.0).abs() < 1e-5, "{pixel:?}");
+    }
+}
+
 #[test]
 fn materials_and_creases_keep_their_edges() {
     let mesh = cut(two_triangles(), 8);
