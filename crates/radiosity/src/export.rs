@@ -1,14 +1,14 @@
 //! Results as tables.
 
-use radiosity_geometry::{Face, Mesh, Shape};
+use radiosity_geometry::{Face, Mesh};
 use radiosity_scene::Scene;
 use radiosity_solver::Solution;
 
 /// The radiosities of all patches as CSV: `surface,ia,ib,B_r,B_g,B_b`, W/m^2.
 ///
 /// Rows are in input order. On surfaces of one face, `ia` and `ib` are the patch's cell
-/// ([`radiosity_geometry::Patch::cell`]); on meshes `ia` is the face as the mesh file counts it
-/// and `ib` the patch's position in it.
+/// ([`radiosity_geometry::Patch::cell`]); on meshes `ia` is the polygon of the mesh file, counted
+/// from 0, and `ib` the patch's position in it.
 pub fn radiosity_csv(scene: &Scene, mesh: &Mesh, solution: &Solution) -> Vec<u8> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let in_memory = "memory takes all bytes";
@@ -35,19 +35,14 @@ fn input_order(scene: &Scene, mesh: &Mesh) -> Vec<(usize, [u32; 2])> {
     let mut previous = None;
     let mut position = 0;
     for face in faces {
-        let shape = &scene.geometry[face.surface.index()].shape;
-        let is_mesh = matches!(shape, Shape::Mesh(_));
-        let identity = (face.surface, face.input_index);
-        if previous.replace(identity) != Some(identity) {
+        let polygons = &scene.surfaces[face.surface.index()].polygons;
+        let polygon = polygons.get(face.input_index as usize).copied();
+        if previous.replace((face.surface, polygon)) != Some((face.surface, polygon)) {
             position = 0;
         }
         for patch in face.patches() {
             let on_face = mesh.patches[patch].cell;
-            let cell = if is_mesh {
-                [face.input_index, position]
-            } else {
-                on_face
-            };
+            let cell = polygon.map_or(on_face, |polygon| [polygon, position]);
             rows.push((patch, cell));
             position += 1;
         }

@@ -53,6 +53,10 @@ mesh = { file = "block.obj" }
 const BLOCK: &str = "v 0.6 0.2 0.2\nv 0.9 0.2 0.2\nv 0.9 0.2 0.5\nv 0.6 0.2 0.5\n\
     v 0.6 0.4 0.35\nf 4 3 2 1\nf 1 5 4\nf 4 5 3\n";
 
+/// An L of six corners, and a triangle beside it.
+const BENT: &str = "v 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nv 3 0 0\n\
+    f 1 2 3 4 5 6\nf 1 7 2\n";
+
 /// Two squares so close that one point on each overestimates their form factor 40 times.
 const NARROW_GAP: &str = r#"
 discretization = { divisions = 1 }
@@ -303,6 +307,21 @@ fn radiosities_are_exported_in_input_order() {
         ["wing,0,0", "wing,0,1", "wing,0,2", "wing,1,0"]
     );
     assert_eq!(cells[15..], ["block,0,0", "block,1,0", "block,2,0"]);
+    place.write("block.obj", BENT);
+    place.succeed("solve room.toml --no-cache --export bent.csv");
+    let bent = fs::read_to_string(place.path("bent.csv")).unwrap();
+    let cell = |line: &str| line.split(',').take(3).collect::<Vec<_>>().join(",");
+    let cells: Vec<String> = bent.lines().skip(15).map(cell).collect();
+    assert_eq!(
+        cells,
+        [
+            "block,0,0",
+            "block,0,1",
+            "block,0,2",
+            "block,0,3",
+            "block,1,0"
+        ]
+    );
     let lamp = table.lines().nth(10).unwrap();
     assert!(
         lamp.ends_with(",4,3,2"),

@@ -22,7 +22,7 @@ pub(crate) struct Label {
     group: Rc<str>,
     material: Option<Rc<str>>,
     /// Position among the polygons of the file.
-    polygon: usize,
+    pub(crate) polygon: usize,
 }
 
 impl Label {
@@ -31,7 +31,7 @@ impl Label {
         self.material.as_deref().into_iter().chain([&*self.group])
     }
 
-    /// The line of the file that has the face, counted from 1.
+    /// The line of the file where the face begins, counted from 1.
     pub(crate) fn line(&self, text: &str) -> usize {
         let is_polygon = |line: &str| {
             let mut words = line.split_whitespace();
@@ -48,6 +48,16 @@ impl Label {
 /// Reads an OBJ file. Material libraries are not opened: what a material is, the scene file
 /// says; its name in the mesh is all that counts here.
 pub(crate) fn parse(source: &Source<'_>) -> Result<ObjMesh, SceneError> {
+    let text = plain_lines(source.text);
+    let source = &Source {
+        path: source.path,
+        text: &text,
+    };
+    if let Some(line) = first_face_without_corners(&text) {
+        let complaint = Complaint::new("this face has fewer than three corners", "in this line")
+            .help("remove it from the mesh");
+        return Err(source.error_in_line(line, &complaint));
+    }
     let materials = material_names(source.text);
     let options = tobj::LoadOptions {
         ignore_points: true,
@@ -75,6 +85,37 @@ pub(crate) fn parse(source: &Source<'_>) -> Result<ObjMesh, SceneError> {
 /// The library that this reader puts in front of a file: tobj forgets material names that no
 /// library defines. OBJ names cannot contain a line break, so no file can ask for it.
 const NAMES_USED: &str = "(all materials named in this file)";
+
+/// The same lines without tabs, and without continuations (`\` at the end), which tobj does not
+/// know; empty lines take the place of joined ones.
+fn plain_lines(text: &str) -> String {
+    let mut plain = String::with_capacity(text.len());
+    let mut joined = 0;
+    for line in text.lines() {
+        match line.trim_end().strip_suffix('\\') {
+            Some(start) if !line.trim_start().starts_with('#') => {
+                plain.push_str(start);
+                plain.push(' ');
+                joined += 1;
+            }
+            _ => {
+                plain.push_str(line);
+                plain.extend(std::iter::repeat_n('\n', 1 + joined));
+                joined = 0;
+            }
+        }
+    }
+    plain.replace('\t', " ")
+}
+
+/// The line, counted from 1, of the first face that is no polygon.
+fn first_face_without_corners(text: &str) -> Option<usize> {
+    let is_bad = |line: &str| {
+        let mut words = line.split_whitespace();
+        words.next() == Some("f") && words.count() < 3
+    };
+    text.lines().position(is_bad).map(|index| index + 1)
+}
 
 /// The materials that a file uses, in order of appearance.
 fn material_names(text: &str) -> Vec<Rc<str>> {

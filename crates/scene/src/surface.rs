@@ -18,6 +18,8 @@ pub struct Surface {
     /// Index into the scene's materials, for each face in input order; just one for a surface
     /// of one face.
     pub materials: Vec<usize>,
+    /// For meshes: the polygon of the file that each face is, or is a part of.
+    pub polygons: Vec<u32>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -125,6 +127,7 @@ impl Context<'_> {
         let surface = Surface {
             name: name.clone(),
             materials: self.materials_of(table, &labels)?,
+            polygons: labels.iter().map(|label| label.polygon as u32).collect(),
         };
         Ok((geometry::Surface { shape, divisions }, surface))
     }

@@ -227,6 +227,18 @@ fn comments_may_be_in_any_encoding() {
 }
 
 #[test]
+fn tabs_and_continued_lines_are_read() {
+    let obj = "v\t0 0 0\nv 1 0 0\nv 0 1 0\nusemtl\tred \nf 1 2 \\\n  3\nf 1 3 9\n";
+    let error = MeshScene::new(obj).parse("model.obj", " }").unwrap_err();
+    assert!(error.contains("model.obj:7:1"), "{error}");
+    let good = MeshScene::new(obj.trim_end_matches("f 1 3 9\n"));
+    let scene = good
+        .parse("model.obj", " }\nmaterials = { red = \"b\" }")
+        .unwrap();
+    assert_eq!(reflectances(&scene), [0.2]);
+}
+
+#[test]
 fn a_mesh_is_not_a_scene() {
     let error = crate::load(Path::new("model.obj")).unwrap_err().to_string();
     assert!(
@@ -266,6 +278,7 @@ fn mesh_mistakes_are_explained() {
     );
     add("v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n", "model.obj", " }");
     add("# nothing here\n", "model.obj", " }");
+    add("v 0 0 0\nv 1 0 0\nf 1 2\n", "model.obj", " }");
     add(TWO_GROUPS, "modle.obj", " }");
     add(TWO_GROUPS, "model.obj", ", scale = 0 }");
     add(TWO_GROUPS, "model.obj", " }\nmaterials = { bse = \"b\" }");
