@@ -17,44 +17,11 @@ const BLOCK_ROWS: usize = 8;
 /// Estimates all form factors of a mesh. `progress` is told how many further pairs are done,
 /// from any thread.
 pub fn estimate(mesh: &Mesh, estimator: Estimator, progress: &(dyn Fn(u64) + Sync)) -> FormFactors {
-    let size = mesh.patches.len();
-    let stage = Stage::new(mesh, estimator);
-    let mut values = vec![0.0; packed_len(size)];
-    row_blocks_mut(size, &mut values, BLOCK_ROWS)
-        .into_par_iter()
-        .for_each(|(rows, block)| {
-            let mut monte_carlo = stage.monte_carlo();
-            let first = packed_len(rows.start);
-            for i in rows {
-                let range = packed_row(i);
-                let row = &mut block[range.start - first..range.end - first];
-                stage.row(i, row, &mut monte_carlo);
-                progress(i as u64);
-            }
-        });
-    let areas = mesh.patches.iter().map(|patch| patch.area).collect();
-    let exchange = SymmetricMatrix::new(size, values).expect("one value per pair was made");
-    FormFactors::new(areas, exchange)
+    Estimation::new(mesh, estimator).run(progress)
 }
 
-/// Estimates some pairs, spread over all of them, and throws them away: for predicting how long
-/// [`estimate`] will take.
-pub fn rehearse(mesh: &Mesh, estimator: Estimator, pairs: u64) {
-    let size = mesh.patches.len() as u64;
-    let stage = Stage::new(mesh, estimator);
-    (0..pairs).into_par_iter().for_each(|k| {
-        // Multiples of the golden ratio visit a square evenly; half of it is one triangle.
-        let spread = |k: u64, ratio: f64| ((k as f64 * ratio).fract() * size as f64) as usize;
-        let (i, j) = (
-            spread(k, 0.618_033_988_749_895),
-            spread(k, 0.754_877_666_246_693),
-        );
-        stage.pair(i.max(j), i.min(j), &mut stage.monte_carlo());
-    });
-}
-
-/// What every row needs.
-struct Stage<'a> {
+/// [`estimate`] in two steps, with a rehearsal between them.
+pub struct Estimation<'a> {
     mesh: &'a Mesh,
     occluders: Occluders,
     estimator: Estimator,
@@ -63,8 +30,12 @@ struct Stage<'a> {
     scale: f64,
 }
 
-impl<'a> Stage<'a> {
-    fn new(mesh: &'a Mesh, estimator: Estimator) -> Stage<'a> {
+/// Neighbouring pairs that a rehearsal takes together, as rows do.
+const REHEARSED_RUN: usize = 16;
+
+impl<'a> Estimation<'a> {
+    /// Prepares what every pair needs.
+    pub fn new(mesh: &'a Mesh, estimator: Estimator) -> Estimation<'a> {
         let points = match estimator {
             Estimator::Regular { points } => mesh
                 .patches
@@ -73,13 +44,64 @@ impl<'a> Stage<'a> {
                 .collect(),
             Estimator::MonteCarlo { .. } => Vec::new(),
         };
-        Stage {
+        Estimation {
             mesh,
             occluders: Occluders::new(mesh),
             estimator,
             points,
             scale: 1.0 / mesh.total_area(),
         }
+    }
+
+    /// Estimates at least so many pairs, spread over all of them, and throws them away: for
+    /// predicting how long [`Estimation::run`] will take. Returns how many pairs they were.
+    pub fn rehearse(&self, pairs: u64) -> u64 {
+        let size = self.mesh.patches.len() as f64;
+        let run = |k: u64| {
+            // The R2 sequence (Roberts 2018) visits the square of pairs evenly.
+            let spread = |inverse: f64| (((k + 1) as f64 * inverse).fract() * size) as usize;
+            let (i, j) = (spread(0.754_877_666_246_693), spread(0.569_840_290_998_053));
+            let face_j = self.mesh.patches[j].face;
+            let end = self.mesh.faces[face_j.index()].patches().end;
+            let run = j..end.min(j + REHEARSED_RUN);
+            let length = run.len() as u64;
+            let other_face = face_j != self.mesh.patches[i].face;
+            if let Some(sight) = other_face.then(|| self.sight(i, face_j)).flatten() {
+                let monte_carlo = &mut self.monte_carlo();
+                let sum: f32 = run.map(|j| self.exchange(i, j, &sight, monte_carlo)).sum();
+                std::hint::black_box(sum);
+            }
+            length
+        };
+        let mut done = 0;
+        let mut next = 0;
+        while done < pairs {
+            let batch = ((pairs - done) / REHEARSED_RUN as u64).max(8);
+            done += (next..next + batch).into_par_iter().map(run).sum::<u64>();
+            next += batch;
+        }
+        done
+    }
+
+    /// Estimates all pairs. `progress` is told how many further pairs are done, from any thread.
+    pub fn run(&self, progress: &(dyn Fn(u64) + Sync)) -> FormFactors {
+        let size = self.mesh.patches.len();
+        let mut values = vec![0.0; packed_len(size)];
+        row_blocks_mut(size, &mut values, BLOCK_ROWS)
+            .into_par_iter()
+            .for_each(|(rows, block)| {
+                let mut monte_carlo = self.monte_carlo();
+                let first = packed_len(rows.start);
+                for i in rows {
+                    let range = packed_row(i);
+                    let row = &mut block[range.start - first..range.end - first];
+                    self.row(i, row, &mut monte_carlo);
+                    progress(i as u64);
+                }
+            });
+        let areas = self.mesh.patches.iter().map(|patch| patch.area).collect();
+        let exchange = SymmetricMatrix::new(size, values).expect("one value per pair was made");
+        FormFactors::new(areas, exchange)
     }
 
     fn monte_carlo(&self) -> Option<MonteCarlo> {
@@ -104,16 +126,6 @@ impl<'a> Stage<'a> {
                 }
             }
         }
-    }
-
-    /// One entry on its own.
-    fn pair(&self, i: usize, j: usize, monte_carlo: &mut Option<MonteCarlo>) -> f32 {
-        let face_j = self.mesh.patches[j].face;
-        if face_j == self.mesh.patches[i].face {
-            return 0.0;
-        }
-        self.sight(i, face_j)
-            .map_or(0.0, |sight| self.exchange(i, j, &sight, monte_carlo))
     }
 
     /// What may stand between a patch and another face; `None` if they cannot see each other.

@@ -26,7 +26,7 @@ mod points;
 use radiosity_matrix::SymmetricMatrix;
 use serde::{Deserialize, Serialize};
 
-pub use estimate::{estimate, rehearse};
+pub use estimate::{Estimation, estimate};
 
 /// Raise it whenever the same mesh would give other form factors, because of a change here, in
 /// `geometry`, or in the random numbers: it is part of their key.

@@ -22,7 +22,7 @@ pub enum Error {
     },
     /// A picture was asked of a scene without a camera.
     #[error(
-        "error: the scene has no camera\n   = help: add a [camera] with `position`, `look_at` and `vertical_fov`"
+        "error: the scene has no camera\n   = help: add a [camera] with `position`, `look_at` and `vertical_fov`, or use `solve`"
     )]
     NoCamera,
     /// The surfaces cannot be cut into patches.

@@ -7,11 +7,11 @@ use crate::resources::{Needs, bytes, check_image, duration, grouped};
 use crate::rows::RowSummary;
 use crate::settings;
 use radiosity_cache::{Artifact, Id, Key, Miss, Store};
-use radiosity_form_factors::{self as form_factors, FormFactors, RowFacts};
+use radiosity_form_factors::{self as form_factors, Estimation, FormFactors, RowFacts};
 use radiosity_geometry::{self as geometry, Mesh};
 use radiosity_matrix::SymmetricMatrix;
 use radiosity_renderer::{self as renderer, Fields, Pictures};
-use radiosity_scene::Scene;
+use radiosity_scene::{Mode, Scene};
 use radiosity_solver::{self as solver, Convergence, Solution, System};
 use std::time::Instant;
 
@@ -202,6 +202,14 @@ impl<'a> Pipeline<'a> {
         &self.scene.surfaces[self.mesh.patches[patch].surface.index()].name
     }
 
+    /// Why row sums of the scene's estimator may exceed 1.
+    pub(crate) fn known_weakness(&self) -> &'static str {
+        match self.scene.form_factors.mode {
+            Mode::Regular => "the regular rule overestimates patches that touch",
+            Mode::MonteCarlo => "the variance is unbounded where patches touch; more --pairs help",
+        }
+    }
+
     fn form_factors_id(&self) -> Id<'_> {
         Id {
             scene: &self.scene.name,
@@ -245,24 +253,23 @@ impl<'a> Pipeline<'a> {
         let estimator = settings::estimator(self.scene);
         let needs = Needs::of(self.mesh.patches.len(), estimator);
         needs.check(self.cache)?;
-        self.predict(&needs);
+        let estimation = Estimation::new(&self.mesh, estimator);
+        self.predict(&needs, &estimation);
         self.observer.begin(Stage::FormFactors, needs.pairs);
-        let advance = |pairs| self.observer.advance(pairs);
-        let made = form_factors::estimate(&self.mesh, estimator, &advance);
+        let made = estimation.run(&|pairs| self.observer.advance(pairs));
         self.observer.end();
         Ok(made)
     }
 
     /// Says before a long run what it will take.
-    fn predict(&self, needs: &Needs) {
-        let estimator = settings::estimator(self.scene);
-        let point_pairs = estimator.point_pairs();
+    fn predict(&self, needs: &Needs, estimation: &Estimation<'_>) {
+        let point_pairs = settings::estimator(self.scene).point_pairs();
         if needs.pairs.saturating_mul(point_pairs) < PREDICTED_FROM {
             return;
         }
-        let tried = (REHEARSED / point_pairs).max(2 * rayon::current_num_threads() as u64);
+        let wanted = (REHEARSED / point_pairs).max(2 * rayon::current_num_threads() as u64);
         let start = Instant::now();
-        form_factors::rehearse(&self.mesh, estimator, tried);
+        let tried = estimation.rehearse(wanted);
         let seconds = start.elapsed().as_secs_f64() * needs.pairs as f64 / tried as f64;
         self.observer.note(&format!(
             "{} patches, {} pairs: {} of memory, {} of disk, {}",
@@ -298,8 +305,9 @@ impl<'a> Pipeline<'a> {
 
     /// What to say of form factors that nobody asked for.
     fn untouched_form_factors(&self) -> Origin {
-        let path = self.cache.map(|store| store.path(&self.form_factors_id()));
-        let file = path.filter(|path| path.exists());
+        let id = self.form_factors_id();
+        let is_there = |store: &&Store| store.read::<Vec<RowFacts>>(&id).is_ok();
+        let file = self.cache.filter(is_there).map(|store| store.path(&id));
         Origin {
             how: if file.is_some() {
                 How::Cached

@@ -112,11 +112,11 @@ impl<'a> Report<'a> {
             let patches = pipeline.mesh().patches.len() as u64;
             let (sum, patch) = rows.largest;
             self.terminal.line(&indented(&format!(
-                "warning: {} of {} rows sum to more than 1.001, the worst to {sum:.3} (in `{}`): the \
-                 estimator overestimates patches that touch",
+                "warning: {} of {} rows sum to more than 1.001, the worst to {sum:.3} (in `{}`): {}",
                 grouped(rows.excessive),
                 grouped(patches),
                 pipeline.surface_name(patch as usize),
+                pipeline.known_weakness(),
             )));
         }
         self.json.stages.form_factors = Some(FormFactorReport {
@@ -147,7 +147,8 @@ impl<'a> Report<'a> {
             format!("{:.1} %", 100.0 * share)
         };
         self.terminal.line(&indented(&format!(
-            "{sweeps} sweeps to residual {residual:.1e}; of the power, {} absorbed, {} escaped",
+            "{sweeps} sweep{} to residual {residual:.1e}; of the power, {} absorbed, {} escaped",
+            if sweeps == 1 { "" } else { "s" },
             percent(absorbed),
             percent(escaped),
         )));

@@ -70,7 +70,7 @@ impl Needs {
                 ),
                 remedy: format!(
                     "use fewer patches (--patches, --max-patch-edge): about {} fit",
-                    grouped((usable as f64 / 2.0).sqrt() as u64),
+                    grouped(two_digits((usable as f64 / 2.0).sqrt() as u64)),
                 ),
             }),
             _ => Ok(()),
@@ -111,6 +111,12 @@ fn free_disk(folder: &Path) -> Option<u64> {
     let existing = folder.ancestors().find(|f| f.exists());
     let here = existing.unwrap_or(Path::new("."));
     fs4::available_space(here).ok()
+}
+
+/// Rounded down to two digits: what an estimate deserves.
+fn two_digits(n: u64) -> u64 {
+    let unit = 10u64.pow(n.checked_ilog10().unwrap_or(0).saturating_sub(1));
+    n / unit * unit
 }
 
 /// A number with its thousands apart.
@@ -158,6 +164,7 @@ mod tests {
 
     #[test]
     fn quantities_are_readable() {
+        assert_eq!([0, 7, 99, 105_701].map(two_digits), [0, 7, 99, 100_000]);
         assert_eq!(
             ["0", "999", "1,728", "1,492,128"],
             [0, 999, 1728, 1_492_128].map(grouped)[..]

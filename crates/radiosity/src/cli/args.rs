@@ -16,7 +16,7 @@ pub enum Command {
     Solve(SolveCommand),
     /// Make the pictures anew, with a cached solution where possible
     Display(DisplayCommand),
-    /// Check a scene and say what it would take, without computing anything
+    /// Check a scene, and say what memory and disk it would take, without computing anything
     Check(CheckArgs),
     /// See or empty the cache
     Cache(CacheCommand),
@@ -33,7 +33,7 @@ pub struct SceneArgs {
     #[arg(long, value_name = "N", value_parser = parse_counts, conflicts_with = "max_patch_edge")]
     pub patches: Option<(u32, u32)>,
     /// Longest edge of a patch, in scene units, instead of the scene's default
-    #[arg(long, value_name = "LENGTH", value_parser = parse_positive)]
+    #[arg(long, value_name = "LENGTH", value_parser = parse_positive, allow_negative_numbers = true)]
     pub max_patch_edge: Option<f64>,
 }
 
@@ -79,7 +79,7 @@ pub struct CacheArgs {
 #[derive(Debug, Args)]
 pub struct SolveArgs {
     /// Relative residual at which the solver stops
-    #[arg(long, value_name = "X", value_parser = parse_tolerance)]
+    #[arg(long, value_name = "X", value_parser = parse_tolerance, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
     /// Most Gauss-Seidel sweeps to take
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
@@ -99,10 +99,10 @@ pub struct DisplayArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub samples: Option<u32>,
     /// Factor from radiance to brightness; what then exceeds 1 is clamped
-    #[arg(long, value_name = "X", value_parser = parse_positive)]
+    #[arg(long, value_name = "X", value_parser = parse_positive, allow_negative_numbers = true)]
     pub exposure: Option<f64>,
     /// Exponent of the screen
-    #[arg(long, value_name = "X", value_parser = parse_positive)]
+    #[arg(long, value_name = "X", value_parser = parse_positive, allow_negative_numbers = true)]
     pub gamma: Option<f64>,
     /// Folder for the pictures [default: out]
     #[arg(long, short, value_name = "DIR")]
@@ -141,7 +141,8 @@ pub struct SolveCommand {
     pub estimate: EstimateArgs,
     #[command(flatten)]
     pub solve: SolveArgs,
-    /// Write the radiosities of all patches: surface,ia,ib,B_r,B_g,B_b in W/m^2
+    /// Write the radiosities of all patches: surface,ia,ib,B_r,B_g,B_b in W/m^2; the path ends
+    /// in .csv
     #[arg(long, value_name = "FILE.csv", value_parser = parse_csv_path)]
     pub export: Option<PathBuf>,
 }
@@ -237,6 +238,9 @@ impl EstimateArgs {
         set(&mut settings.points, self.points);
         set(&mut settings.seed, self.seed);
         settings.pairs = self.pairs.or(settings.pairs);
+        if settings.mode == Mode::Regular && (self.pairs.is_some() || self.seed.is_some()) {
+            eprintln!("warning: --pairs and --seed are for --mode monte-carlo, and change nothing");
+        }
     }
 }
 

@@ -64,8 +64,8 @@ fn solve(args: &SolveCommand, site: &Site) -> Result<(), Error> {
     args.scene.apply(&mut scene);
     args.estimate.apply(&mut scene);
     args.solve.apply(&mut scene);
-    if let Some(folder) = args.export.as_ref().and_then(|path| path.parent()) {
-        make_folder(folder)?;
+    if let Some(path) = &args.export {
+        check_folder_of(path)?;
     }
     let terminal = Terminal::new(args.estimate.json);
     with_threads(args.estimate.threads, || {
@@ -150,6 +150,23 @@ fn with_threads(
         remedy: "use fewer (--threads)".to_owned(),
     })?;
     pool.install(run)
+}
+
+/// Refuses a result in a folder that does not exist, before anything is computed for it.
+fn check_folder_of(path: &Path) -> Result<(), Error> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let error = match std::fs::metadata(folder) {
+        Ok(metadata) if metadata.is_dir() => return Ok(()),
+        Ok(_) => std::io::ErrorKind::NotADirectory.into(),
+        Err(error) => error,
+    };
+    Err(Error::Output {
+        path: path.to_owned(),
+        error,
+    })
 }
 
 /// Makes the folder of a result before anything is computed for it.
