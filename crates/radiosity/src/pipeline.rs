@@ -62,8 +62,10 @@ const SOLVER_STEPS: u64 = 100;
 const FACTS_VERSION: u32 = 1;
 /// Below this many pairs of points a prediction costs more than it is worth.
 const PREDICTED_FROM: u64 = 20_000_000;
-/// Pairs of points to try for a prediction, some hundredths of a second's work.
-const REHEARSED: u64 = 2_000_000;
+/// The share of a run that a prediction may cost, as one in so many, and the most pairs of
+/// points it tries: some tenths of a second's work.
+const REHEARSED_ONE_IN: u64 = 40;
+const MOST_REHEARSED: u64 = 30_000_000;
 
 impl<'a> Pipeline<'a> {
     /// Stage 1: cuts the scene into patches.
@@ -264,10 +266,12 @@ impl<'a> Pipeline<'a> {
     /// Says before a long run what it will take.
     fn predict(&self, needs: &Needs, estimation: &Estimation<'_>) {
         let point_pairs = settings::estimator(self.scene).point_pairs();
-        if needs.pairs.saturating_mul(point_pairs) < PREDICTED_FROM {
+        let work = needs.pairs.saturating_mul(point_pairs);
+        if work < PREDICTED_FROM {
             return;
         }
-        let wanted = (REHEARSED / point_pairs).max(2 * rayon::current_num_threads() as u64);
+        let tried = (work / REHEARSED_ONE_IN).min(MOST_REHEARSED);
+        let wanted = (tried / point_pairs).max(2 * rayon::current_num_threads() as u64);
         let start = Instant::now();
         let tried = estimation.rehearse(wanted);
         let seconds = start.elapsed().as_secs_f64() * needs.pairs as f64 / tried as f64;
