@@ -7,6 +7,7 @@
 //!
 //! This crate is the only one that names bincode. It knows nothing of physics.
 
+mod cache_file;
 mod format;
 mod key;
 mod lock;

@@ -1,10 +1,11 @@
 //! The cache folder.
 
+use crate::cache_file::{CacheFile, EXTENSION, lock_of};
 use crate::format::{self, Miss};
 use crate::key::Key;
 use crate::lock::Lock;
 use crate::mapping::{self, MappedValues};
-use crate::replace::{PARTIAL, replace_file};
+use crate::replace::replace_file;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::fs::{self, File};
@@ -61,9 +62,6 @@ pub struct CacheError {
     #[source]
     pub error: std::io::Error,
 }
-
-const EXTENSION: &str = "bin";
-const LOCK: &str = "lock";
 
 impl<F> Artifact<F> {
     /// The big array, its digests checked.
@@ -225,36 +223,6 @@ impl Store {
     }
 }
 
-/// A file in the folder, and the artifact that it is or belongs to.
-struct CacheFile {
-    path: PathBuf,
-    artifact: PathBuf,
-}
-
-impl CacheFile {
-    /// Recognizes `SCENE-STAGE-KEY.bin`, and the same with more behind it.
-    fn of(path: PathBuf) -> Option<CacheFile> {
-        let name = path.file_name()?.to_str()?;
-        let end = name.rfind(&format!(".{EXTENSION}"))?;
-        let (scene_and_stage, key) = name[..end].rsplit_once('-')?;
-        let is_key = key.len() == 16 && key.bytes().all(|b| b.is_ascii_hexdigit());
-        let suffix = &name[end + 1 + EXTENSION.len()..];
-        let is_ours = suffix.is_empty()
-            || suffix == format!(".{LOCK}")
-            || suffix.ends_with(&format!(".{PARTIAL}"));
-        let artifact = path.with_file_name(format!("{scene_and_stage}-{key}.{EXTENSION}"));
-        (is_key && is_ours).then_some(CacheFile { path, artifact })
-    }
-
-    fn is_artifact(&self) -> bool {
-        self.path == self.artifact
-    }
-
-    fn is_partial(&self) -> bool {
-        self.path.extension().is_some_and(|e| e == PARTIAL)
-    }
-}
-
 impl Entry {
     fn of(path: PathBuf) -> Entry {
         let metadata = fs::metadata(&path).ok();
@@ -281,8 +249,4 @@ impl CacheError {
 fn stage_of(path: &Path) -> Result<String, Miss> {
     let map = mapping::map(&File::open(path)?)?;
     format::parse(&map).map(|(header, _)| header.stage)
-}
-
-fn lock_of(artifact: &Path) -> PathBuf {
-    artifact.with_extension(format!("{EXTENSION}.{LOCK}"))
 }

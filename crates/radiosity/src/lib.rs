@@ -30,6 +30,7 @@ mod error;
 mod export;
 mod observer;
 mod pipeline;
+mod prediction;
 mod report;
 mod resources;
 mod rows;

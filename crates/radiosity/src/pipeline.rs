@@ -3,7 +3,8 @@
 use crate::artifact::{How, Origin, Recipe, Sources, obtain};
 use crate::error::Error;
 use crate::observer::{Observer, Stage};
-use crate::resources::{Needs, bytes, check_image, duration, grouped};
+use crate::prediction::prediction;
+use crate::resources::{Needs, check_image};
 use crate::rows::RowSummary;
 use crate::settings;
 use radiosity_cache::{Artifact, Id, Key, Miss, Store};
@@ -60,13 +61,6 @@ const SOLVER_STEPS: u64 = 100;
 /// Raise it whenever the layout of what is stored beside an array changes ([`RowFacts`],
 /// [`Convergence`], [`RowSummary`]): it is part of every key.
 const FACTS_VERSION: u32 = 1;
-/// Below this many pairs of points a prediction costs more than it is worth.
-const PREDICTED_FROM: u64 = 20_000_000;
-/// The share of a run that a prediction may cost, as one in so many, and the most pairs of
-/// points it tries: some tenths of a second's work.
-const REHEARSED_ONE_IN: u64 = 40;
-const MOST_REHEARSED: u64 = 30_000_000;
-
 impl<'a> Pipeline<'a> {
     /// Stage 1: cuts the scene into patches.
     pub fn new(
@@ -256,33 +250,13 @@ impl<'a> Pipeline<'a> {
         let needs = Needs::of(self.mesh.patches.len(), estimator);
         needs.check(self.cache)?;
         let estimation = Estimation::new(&self.mesh, estimator);
-        self.predict(&needs, &estimation);
+        if let Some(prediction) = prediction(&needs, &estimation, estimator) {
+            self.observer.note(&prediction);
+        }
         self.observer.begin(Stage::FormFactors, needs.pairs);
         let made = estimation.run(&|pairs| self.observer.advance(pairs));
         self.observer.end();
         Ok(made)
-    }
-
-    /// Says before a long run what it will take.
-    fn predict(&self, needs: &Needs, estimation: &Estimation<'_>) {
-        let point_pairs = settings::estimator(self.scene).point_pairs();
-        let work = needs.pairs.saturating_mul(point_pairs);
-        if work < PREDICTED_FROM {
-            return;
-        }
-        let tried = (work / REHEARSED_ONE_IN).min(MOST_REHEARSED);
-        let wanted = (tried / point_pairs).max(2 * rayon::current_num_threads() as u64);
-        let start = Instant::now();
-        let tried = estimation.rehearse(wanted);
-        let seconds = start.elapsed().as_secs_f64() * needs.pairs as f64 / tried as f64;
-        self.observer.note(&format!(
-            "{} patches, {} pairs: {} of memory, {} of disk, {}",
-            grouped(needs.patches as u64),
-            grouped(needs.pairs),
-            bytes(needs.memory),
-            bytes(needs.disk),
-            duration(seconds),
-        ));
     }
 
     fn solve(&self, form_factors: &FormFactors) -> Result<Solution, Error> {

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::observer::{Observer, Stage};
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use std::io::{ErrorKind, Write};
 use std::sync::Mutex;
 
@@ -51,16 +51,18 @@ impl Terminal {
 
 impl Observer for Terminal {
     fn begin(&self, stage: Stage, work: u64) {
-        let (name, unit) = match stage {
-            Stage::FormFactors => ("form factors", "pairs"),
-            Stage::Solve => ("solution", "sweeps"),
-            Stage::Display => ("pictures", "rows"),
+        let (name, counts) = match stage {
+            Stage::FormFactors => ("form factors", "{human_pos} of {human_len} pairs  {rate}  "),
+            Stage::Solve => ("solution", ""),
+            Stage::Display => ("pictures", "{human_pos} of {human_len} rows  {rate}  "),
         };
-        let template = format!(
-            "{name:<14}{{bar:30}} {{percent:>3}} %  {{human_pos}} of {{human_len}} {unit}  \
-             {{per_sec}}  {{eta}} left"
-        );
-        let style = ProgressStyle::with_template(&template).expect("the template is well-formed");
+        let template = format!("{name:<14}{{bar:30}} {{percent:>3}} %  {counts}{{eta}} left");
+        let rate = |state: &ProgressState, text: &mut dyn std::fmt::Write| {
+            let _ = write!(text, "{}/s", HumanCount(state.per_sec() as u64));
+        };
+        let style = ProgressStyle::with_template(&template)
+            .expect("the template is well-formed")
+            .with_key("rate", rate);
         // Draws on standard error, and nothing at all where that is no terminal.
         *self.bar() = Some(ProgressBar::new(work).with_style(style));
     }

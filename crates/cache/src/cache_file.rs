@@ -1,0 +1,42 @@
+//! The names of files in the cache folder.
+
+use crate::replace::PARTIAL;
+use std::path::{Path, PathBuf};
+
+pub(crate) const EXTENSION: &str = "bin";
+const LOCK: &str = "lock";
+
+/// A file in the folder, and the artifact that it is or belongs to.
+pub(crate) struct CacheFile {
+    pub(crate) path: PathBuf,
+    pub(crate) artifact: PathBuf,
+}
+
+impl CacheFile {
+    /// Recognizes `SCENE-STAGE-KEY.bin`, and the same with more behind it.
+    pub(crate) fn of(path: PathBuf) -> Option<CacheFile> {
+        let name = path.file_name()?.to_str()?;
+        let end = name.rfind(&format!(".{EXTENSION}"))?;
+        let (scene_and_stage, key) = name[..end].rsplit_once('-')?;
+        let is_key = key.len() == 16 && key.bytes().all(|b| b.is_ascii_hexdigit());
+        let suffix = &name[end + 1 + EXTENSION.len()..];
+        let is_ours = suffix.is_empty()
+            || suffix == format!(".{LOCK}")
+            || suffix.ends_with(&format!(".{PARTIAL}"));
+        let artifact = path.with_file_name(format!("{scene_and_stage}-{key}.{EXTENSION}"));
+        (is_key && is_ours).then_some(CacheFile { path, artifact })
+    }
+
+    pub(crate) fn is_artifact(&self) -> bool {
+        self.path == self.artifact
+    }
+
+    pub(crate) fn is_partial(&self) -> bool {
+        self.path.extension().is_some_and(|e| e == PARTIAL)
+    }
+}
+
+/// The lock file of an artifact.
+pub(crate) fn lock_of(artifact: &Path) -> PathBuf {
+    artifact.with_extension(format!("{EXTENSION}.{LOCK}"))
+}
