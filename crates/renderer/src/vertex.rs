@@ -98,7 +98,7 @@ impl VertexValues {
                 let (low, high) = around.fold((f32::MAX, 0.0), |(low, high): (f32, f32), b| {
                     (low.min(b), high.max(b))
                 });
-                *channel = channel.clamp(low, high);
+                *channel = channel.max(low).min(high);
             }
         }
     }
