@@ -1,6 +1,7 @@
 //! Results as tables.
 
 use radiosity_geometry::{Face, Mesh};
+use radiosity_reference::CellMean;
 use radiosity_scene::Scene;
 use radiosity_solver::Solution;
 
@@ -10,18 +11,38 @@ use radiosity_solver::Solution;
 /// ([`radiosity_geometry::Patch::cell`]); on meshes `ia` is the polygon of the mesh file, counted
 /// from 0, and `ib` the patch's position in it.
 pub fn radiosity_csv(scene: &Scene, mesh: &Mesh, solution: &Solution) -> Vec<u8> {
+    let values = |patch: usize| solution.radiosity[patch].map(|b| b.to_string()).to_vec();
+    table(scene, mesh, &["B_r", "B_g", "B_b"], values)
+}
+
+/// Traced radiosities as CSV: the columns of [`radiosity_csv`] and the standard errors
+/// `se_r,se_g,se_b`.
+pub fn reference_csv(scene: &Scene, mesh: &Mesh, cells: &[CellMean]) -> Vec<u8> {
+    let columns = ["B_r", "B_g", "B_b", "se_r", "se_g", "se_b"];
+    table(scene, mesh, &columns, |patch| {
+        let cell = &cells[patch];
+        let means = cell.radiosity.map(|b| (b as f32).to_string());
+        let errors = cell.standard_error.map(|e| format!("{e:.2e}"));
+        [means, errors].concat()
+    })
+}
+
+fn table(
+    scene: &Scene,
+    mesh: &Mesh,
+    columns: &[&str],
+    values: impl Fn(usize) -> Vec<String>,
+) -> Vec<u8> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let in_memory = "memory takes all bytes";
-    writer
-        .write_record(["surface", "ia", "ib", "B_r", "B_g", "B_b"])
-        .expect(in_memory);
+    let header = ["surface", "ia", "ib"].iter().chain(columns);
+    writer.write_record(header).expect(in_memory);
     for (patch, [ia, ib]) in input_order(scene, mesh) {
         let surface = mesh.patches[patch].surface.index();
-        let [r, g, b] = solution.radiosity[patch].map(|channel| channel.to_string());
-        let (ia, ib) = (ia.to_string(), ib.to_string());
-        writer
-            .write_record([scene.surfaces[surface].name.as_str(), &ia, &ib, &r, &g, &b])
-            .expect(in_memory);
+        let mut record = vec![scene.surfaces[surface].name.clone()];
+        record.extend([ia.to_string(), ib.to_string()]);
+        record.extend(values(patch));
+        writer.write_record(record).expect(in_memory);
     }
     writer.into_inner().expect(in_memory)
 }

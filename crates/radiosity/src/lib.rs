@@ -38,7 +38,7 @@ mod settings;
 
 pub use artifact::{How, Origin, Sources};
 pub use error::Error;
-pub use export::radiosity_csv;
+pub use export::{radiosity_csv, reference_csv};
 pub use observer::{Observer, Silent, Stage};
 pub use pipeline::{FormFactorsMade, Pipeline, Solved};
 pub use rows::RowSummary;
@@ -47,6 +47,7 @@ pub use radiosity_cache as cache;
 pub use radiosity_form_factors as form_factors;
 pub use radiosity_geometry as geometry;
 pub use radiosity_matrix as matrix;
+pub use radiosity_reference as reference;
 pub use radiosity_renderer as renderer;
 pub use radiosity_scene as scene;
 pub use radiosity_solver as solver;

@@ -9,6 +9,8 @@ pub enum Stage {
     Solve,
     /// Counted in rows of pixels.
     Display,
+    /// Counted in rows of pixels of one pass, or in patches.
+    Reference,
 }
 
 /// Is told what happens, from any thread.

@@ -1,5 +1,6 @@
 //! Pictures as files' bytes.
 
+use crate::image::Image;
 use crate::tone::Picture;
 
 /// File formats for 8-bit pictures.
@@ -23,6 +24,18 @@ pub fn encode(picture: &Picture, format: PictureFormat) -> Vec<u8> {
         PictureFormat::Ppm => ppm(picture),
         PictureFormat::Png { gamma } => png(picture, gamma),
     }
+}
+
+/// The bytes of a portable float map (PF): linear radiance, 32-bit, little endian, rows from the
+/// bottom up as the format wants them.
+pub fn encode_pfm(image: &Image) -> Vec<u8> {
+    let mut bytes = format!("PF\n{} {}\n-1.0\n", image.width, image.height).into_bytes();
+    for row in image.pixels.chunks_exact(image.width as usize).rev() {
+        for channel in row.iter().flatten() {
+            bytes.extend(channel.to_le_bytes());
+        }
+    }
+    bytes
 }
 
 fn header(magic: &str, picture: &Picture) -> String {
@@ -76,6 +89,20 @@ mod tests {
         assert_eq!(plain, b"P3\n2 1\n255\n0 1 2\n253 254 255\n");
         let binary = encode(&sample(), PictureFormat::Ppm);
         assert_eq!(binary, b"P6\n2 1\n255\n\x00\x01\x02\xfd\xfe\xff");
+    }
+
+    #[test]
+    fn float_maps_run_from_the_bottom_up() {
+        let image = Image {
+            width: 1,
+            height: 2,
+            pixels: vec![[1.0; 3], [2.0; 3]],
+        };
+        let bytes = encode_pfm(&image);
+        let (header, data) = bytes.split_at(12);
+        assert_eq!(header, b"PF\n1 2\n-1.0\n");
+        assert_eq!(data[..4], 2f32.to_le_bytes());
+        assert_eq!(data[12..16], 1f32.to_le_bytes());
     }
 
     #[test]

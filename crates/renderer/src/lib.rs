@@ -17,7 +17,7 @@ mod render;
 mod tone;
 mod vertex;
 
-pub use encode::{PictureFormat, encode};
+pub use encode::{PictureFormat, encode, encode_pfm};
 pub use fields::Fields;
 pub use image::Image;
 pub use interpolate::DEFAULT_CREASE_ANGLE;

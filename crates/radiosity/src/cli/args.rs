@@ -16,6 +16,9 @@ pub enum Command {
     Solve(SolveCommand),
     /// Make the pictures anew, with a cached solution where possible
     Display(DisplayCommand),
+    /// Trace a scene by random walks: the unbiased picture or patch radiosities that others are
+    /// judged by, with standard errors
+    Reference(ReferenceCommand),
     /// Check a scene, and say what memory and disk it would take, without computing anything
     Check(CheckArgs),
     /// See or empty the cache
@@ -162,6 +165,39 @@ pub struct DisplayCommand {
     pub solve: SolveArgs,
     #[command(flatten)]
     pub display: DisplayArgs,
+}
+
+/// `reference`.
+#[derive(Debug, Args)]
+pub struct ReferenceCommand {
+    /// A scene file, or the name of one in `scenes/`
+    #[arg(default_value = "cornell")]
+    pub scene: String,
+    /// Random walks per pixel (rounded up to whole passes of one per sub-pixel) or per patch
+    #[arg(long, value_name = "N", default_value = "64", value_parser = clap::value_parser!(u32).range(1..))]
+    pub spp: u32,
+    /// Stop the picture after so many seconds; the result then depends on the machine's speed
+    #[arg(long, value_name = "SECONDS", value_parser = parse_positive, allow_negative_numbers = true, conflicts_with_all = ["spp", "patches"])]
+    pub time: Option<f64>,
+    /// Stop when the picture's estimated relative error is below so many percent
+    #[arg(long, value_name = "PERCENT", value_parser = parse_positive, allow_negative_numbers = true, conflicts_with_all = ["spp", "time", "patches"])]
+    pub error: Option<f64>,
+    /// Instead of a picture, the mean radiosity of each cell of an N x N (or AxB) grid over each
+    /// surface, hidden parts included, as CSV; faces of meshes are cells as they are
+    #[arg(long, value_name = "N", value_parser = parse_counts)]
+    pub patches: Option<(u32, u32)>,
+    /// Seed of the random walks
+    #[arg(long, value_name = "N", default_value = "0")]
+    pub seed: u64,
+    /// Size of the picture in pixels, as WIDTHxHEIGHT
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<(u32, u32)>,
+    /// Folder for the results [default: out]
+    #[arg(long, short, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Threads to use [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub threads: Option<u32>,
 }
 
 /// `check`.

@@ -2,13 +2,14 @@
 
 mod args;
 mod cache_folder;
+mod reference;
 mod run;
 mod site;
 pub(crate) mod terminal;
 
 pub use args::{
     CacheAction, CacheArgs, CacheCommand, CheckArgs, Command, DisplayArgs, DisplayCommand,
-    EstimateArgs, FormFactorsCommand, SceneArgs, SolveArgs, SolveCommand,
+    EstimateArgs, FormFactorsCommand, ReferenceCommand, SceneArgs, SolveArgs, SolveCommand,
 };
 pub use run::run;
 pub use site::Site;

@@ -5,6 +5,7 @@ use super::args::{
     SolveCommand,
 };
 use super::cache_folder;
+use super::reference;
 use super::site::Site;
 use super::terminal::{Terminal, say};
 use crate::artifact::Sources;
@@ -27,6 +28,7 @@ pub fn run(command: &Command, site: &Site) -> ExitCode {
         Command::Render(args) | Command::Display(args) => display(args, site),
         Command::FormFactors(args) => form_factors(args, site),
         Command::Solve(args) => solve(args, site),
+        Command::Reference(args) => reference::run(args, site),
         Command::Check(args) => check(args, site),
         Command::Cache(args) => cache_folder::run(args, site),
     };
@@ -139,7 +141,7 @@ fn store(args: &EstimateArgs, site: &Site) -> Option<Store> {
 }
 
 /// Runs with so many threads, or as many as there are processors.
-fn with_threads(
+pub(super) fn with_threads(
     threads: Option<u32>,
     run: impl FnOnce() -> Result<(), Error> + Send,
 ) -> Result<(), Error> {
@@ -170,7 +172,7 @@ fn check_folder_of(path: &Path) -> Result<(), Error> {
 }
 
 /// Makes the folder of a result before anything is computed for it.
-fn make_folder(folder: &Path) -> Result<(), Error> {
+pub(super) fn make_folder(folder: &Path) -> Result<(), Error> {
     std::fs::create_dir_all(folder).map_err(|error| Error::Output {
         path: folder.to_owned(),
         error,
@@ -225,7 +227,7 @@ fn encoded(image: &Image, settings: &ImageSettings, format: FormatArg) -> Vec<u8
     encode(&picture, format)
 }
 
-fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     replace_file(path, &[bytes]).map_err(|error| Error::Output {
         path: path.to_owned(),
         error,

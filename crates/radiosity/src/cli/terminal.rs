@@ -54,6 +54,7 @@ impl Observer for Terminal {
         let (name, counts) = match stage {
             Stage::FormFactors => ("form factors", "{human_pos} of {human_len} pairs  {rate}  "),
             Stage::Solve => ("solution", ""),
+            Stage::Reference => ("reference", "{human_pos} of {human_len}  {rate}  "),
             Stage::Display => ("pictures", "{human_pos} of {human_len} rows  {rate}  "),
         };
         let template = format!("{name:<14}{{bar:30}} {{percent:>3}} %  {counts}{{eta}} left");
