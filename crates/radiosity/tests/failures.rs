@@ -1,0 +1,159 @@
+//! What goes wrong, and what must not go wrong with it.
+
+mod place;
+
+use place::{Place, SCENE};
+use std::fs;
+
+/// Two squares so close that one point on each overestimates their form factor 40 times.
+const NARROW_GAP: &str = r#"
+discretization = { divisions = 1 }
+form_factors = { points = 1 }
+
+[materials.white]
+reflectance = 0.7
+emission = 1
+
+[[surfaces]]
+name = "below"
+material = "white"
+quad = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+
+[[surfaces]]
+name = "above"
+material = "white"
+quad = [[0, 0, 0.1], [0, 1, 0.1], [1, 1, 0.1], [1, 0, 0.1]]
+"#;
+
+/// The messages and exit codes, to be read as a user would.
+#[test]
+fn failures_are_explained() {
+    let place = Place::new();
+    place.write(
+        "bad.toml",
+        &SCENE.replace("reflectance = 0.7", "reflectance = 7"),
+    );
+    place.write("hot.toml", NARROW_GAP);
+    let blind = SCENE.split("[image]").nth(1).unwrap();
+    place.write("blind.toml", &format!("[image]{blind}"));
+    place.write("file", "");
+    let commands = [
+        "render bad.toml",
+        "render missing.toml",
+        "render nothing",
+        "render blind.toml",
+        "render room.toml --patches 900",
+        "render room.toml --patches 2000",
+        "solve hot.toml --no-cache",
+        "render room.toml --no-cache -o file",
+        "render room.toml --patches 0",
+        "render room.toml --patches 3 --max-patch-edge 1",
+        "solve room.toml --export table.txt",
+        "rendr room.toml",
+    ];
+    let mut report = String::new();
+    for command in commands {
+        let (code, message) = place.fail(command);
+        // What the machine has free is another matter.
+        let message = message.split(", but only").next().unwrap();
+        report += &format!(
+            "$ radiosity {command}\n{}\n[exit code {code}]\n\n",
+            message.trim_end()
+        );
+    }
+    insta::assert_snapshot!(report);
+}
+
+/// Killed at many moments of its life, some of them while it writes.
+#[test]
+fn a_killed_run_leaves_nothing_broken() {
+    let place = Place::new();
+    let arguments = "render room.toml --cache c --patches 20 --points 2 --format ppm";
+    for delay in 0..25 {
+        let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_radiosity"))
+            .args(arguments.split(' '))
+            .current_dir(place.0.path())
+            .stdout(std::process::Stdio::null())
+            .stderr(std::process::Stdio::null())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(5 * delay));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let list = place.succeed("cache list --cache c");
+        assert!(!list.contains("unusable"), "{list}");
+        if let Ok(picture) = fs::read(place.path("out/room-smooth.ppm")) {
+            assert_eq!(picture.len(), 13 + 3 * 16 * 12);
+        }
+        if delay % 5 == 0 {
+            place.succeed("cache clean --cache c");
+        }
+    }
+    place.succeed("render room.toml --cache c");
+}
+
+#[test]
+fn runs_side_by_side_do_not_disturb_each_other() {
+    let place = Place::new();
+    std::thread::scope(|scope| {
+        for _ in 0..6 {
+            scope.spawn(|| place.succeed("render room.toml --cache c"));
+        }
+    });
+    assert!(
+        place
+            .succeed("cache list --cache c")
+            .contains("2 artifacts")
+    );
+    assert_eq!(fs::read_dir(place.path("out")).unwrap().count(), 4);
+}
+
+/// Nobody reads what is printed: no panic, and results all the same.
+#[test]
+fn a_closed_pipe_is_no_error() {
+    let place = Place::new();
+    for arguments in ["render room.toml --json", "check room.toml", "cache list"] {
+        let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_radiosity"))
+            .args(arguments.split(' '))
+            .current_dir(place.0.path())
+            .env("XDG_CACHE_HOME", place.path("platform-cache"))
+            .stdout(std::process::Stdio::piped())
+            .stderr(std::process::Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success(), "{arguments}: {stderr}");
+    }
+    assert!(place.path("out/room-smooth.png").is_file());
+}
+
+#[test]
+fn results_that_cannot_be_written_are_refused_before_the_work() {
+    let place = Place::new();
+    place.write("file", "");
+    for arguments in [
+        "render room.toml -o file",
+        "solve room.toml --export file/x.csv",
+    ] {
+        let (code, message) = place.fail(arguments);
+        assert_eq!(code, 1, "{message}");
+        assert!(
+            !place.path("platform-cache").exists(),
+            "nothing was computed"
+        );
+    }
+}
+
+#[test]
+fn stages_before_a_failure_are_reported() {
+    let place = Place::new();
+    place.write("hot.toml", NARROW_GAP);
+    let (code, stdout, _) = place.run("solve hot.toml --no-cache");
+    assert_eq!(code, 5);
+    assert!(
+        stdout.contains("form factors") && stdout.contains("warning"),
+        "{stdout}"
+    );
+}
