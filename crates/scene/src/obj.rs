@@ -64,36 +64,30 @@ pub(crate) fn parse(source: &Source<'_>) -> Result<ObjMesh, SceneError> {
         ignore_lines: true,
         ..Default::default()
     };
-    let library = format!("mtllib {NAMES_USED}\n");
+    // tobj forgets material names that no library defines: one is put in front of the file. The
+    // first library asked for is that one, whatever others are called.
+    let names = Cell::new(Some(materials_named(&materials)));
     let line = Cell::new(0);
     let mut reader = CountedLines {
         lines: source.text.split_inclusive('\n'),
-        current: library.as_bytes(),
+        current: b"mtllib names\n",
         line: &line,
     };
-    let loaded = tobj::load_obj_buf(&mut reader, &options, |path| {
-        if path.as_os_str() == NAMES_USED {
-            Ok(materials_named(&materials))
-        } else {
-            Ok((Vec::new(), HashMap::default()))
-        }
+    let loaded = tobj::load_obj_buf(&mut reader, &options, |_| {
+        Ok(names.take().unwrap_or_default())
     });
     let (models, _) = loaded.map_err(|error| explain(source, &error, line.get()))?;
     Ok(assemble(&models, &materials))
 }
 
-/// The library that this reader puts in front of a file: tobj forgets material names that no
-/// library defines. OBJ names cannot contain a line break, so no file can ask for it.
-const NAMES_USED: &str = "(all materials named in this file)";
-
-/// The same lines without tabs, and without continuations (`\` at the end), which tobj does not
-/// know; empty lines take the place of joined ones.
+/// The same lines without tabs, indentation and continuations (`\` at the end), which tobj takes
+/// for parts of names or does not know; empty lines take the place of joined ones.
 fn plain_lines(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     let mut joined = 0;
-    for line in text.lines() {
+    for line in text.lines().map(str::trim_start) {
         match line.trim_end().strip_suffix('\\') {
-            Some(start) if !line.trim_start().starts_with('#') => {
+            Some(start) if !line.starts_with('#') => {
                 plain.push_str(start);
                 plain.push(' ');
                 joined += 1;
@@ -121,7 +115,7 @@ fn first_face_without_corners(text: &str) -> Option<usize> {
 fn material_names(text: &str) -> Vec<Rc<str>> {
     let mut names: Vec<Rc<str>> = Vec::new();
     for line in text.lines() {
-        if let Some(name) = line.trim_start().strip_prefix("usemtl ")
+        if let Some(name) = line.strip_prefix("usemtl ")
             && !names.iter().any(|known| **known == *name.trim())
         {
             names.push(name.trim().into());

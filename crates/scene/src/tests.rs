@@ -238,6 +238,32 @@ fn tabs_and_continued_lines_are_read() {
     assert_eq!(reflectances(&scene), [0.2]);
 }
 
+/// A file may name any library, also the one that this reader puts in front.
+#[test]
+fn material_libraries_change_nothing() {
+    for library in ["none.mtl", "names used"] {
+        let obj = TWO_GROUPS.replace("none.mtl", library);
+        let extra = " }\nmaterials = { \"shiny thing\" = \"b\" }";
+        let scene = MeshScene::new(&obj).parse("model.obj", extra).unwrap();
+        assert_eq!(reflectances(&scene), [0.1, 0.2]);
+    }
+}
+
+#[test]
+fn indented_lines_keep_their_names() {
+    let obj = TWO_GROUPS
+        .replace("\ng ", "\n  g ")
+        .replace("\nusemtl", "\n\tusemtl");
+    for (names, expected) in [
+        ("base = \"b\"", [0.2, 0.1]),
+        ("\"shiny thing\" = \"b\"", [0.1, 0.2]),
+    ] {
+        let extra = format!(" }}\nmaterials = {{ {names} }}");
+        let scene = MeshScene::new(&obj).parse("model.obj", &extra).unwrap();
+        assert_eq!(reflectances(&scene), expected);
+    }
+}
+
 #[test]
 fn a_mesh_is_not_a_scene() {
     let error = crate::load(Path::new("model.obj")).unwrap_err().to_string();
