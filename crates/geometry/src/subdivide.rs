@@ -37,6 +37,16 @@ pub struct Surface {
     pub divisions: Option<Divisions>,
 }
 
+impl Surface {
+    /// The same shape, cut as the default says.
+    pub fn without_divisions(&self) -> Surface {
+        Surface {
+            shape: self.shape.clone(),
+            divisions: None,
+        }
+    }
+}
+
 /// Why a scene cannot be cut into patches.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {

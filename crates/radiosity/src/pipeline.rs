@@ -70,8 +70,8 @@ impl<'a> Pipeline<'a> {
         observer: &'a dyn Observer,
     ) -> Result<Pipeline<'a>, Error> {
         let of_mesh = |error| Error::of_mesh(scene, &error);
-        let patches = geometry::count_patches(&scene.geometry, scene.divisions).map_err(of_mesh)?;
         let mesh = geometry::subdivide(&scene.geometry, scene.divisions).map_err(of_mesh)?;
+        let patches = mesh.patches.len();
         let material = |patch: usize| {
             let face = mesh.face_of(patch);
             scene.material(face.surface, face.input_index)

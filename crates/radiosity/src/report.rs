@@ -209,8 +209,7 @@ impl<'a> Report<'a> {
 }
 
 /// What `check` says.
-pub(crate) fn check_lines(scene: &Scene) -> Result<Vec<String>, Error> {
-    let needs = needs_of(scene)?;
+pub(crate) fn check_lines(scene: &Scene, needs: &Needs) -> Vec<String> {
     let camera = if scene.camera.is_some() {
         ""
     } else {
@@ -231,7 +230,7 @@ pub(crate) fn check_lines(scene: &Scene) -> Result<Vec<String>, Error> {
             "warning: nothing emits light; pictures will be black",
         ));
     }
-    Ok(lines)
+    lines
 }
 
 /// What computing the scene would take.

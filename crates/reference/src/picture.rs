@@ -40,11 +40,8 @@ pub struct Tracer<'a> {
 impl<'a> Tracer<'a> {
     /// Prepares the scene's picture, with its size and filter, as a camera sees it.
     pub fn new(scene: &Scene, camera: &'a Camera, seed: u64) -> Result<Tracer<'a>, MeshError> {
-        let whole = |surface: &Surface| Surface {
-            divisions: None,
-            ..surface.clone()
-        };
-        let surfaces: Vec<Surface> = scene.geometry.iter().map(whole).collect();
+        let whole = scene.geometry.iter().map(Surface::without_divisions);
+        let surfaces: Vec<Surface> = whole.collect();
         let faces = subdivide(&surfaces, Divisions::uniform(1))?;
         let (width, height) = (scene.image.width, scene.image.height);
         Ok(Tracer {

@@ -38,11 +38,8 @@ fn cells(
     divisions: Divisions,
     folder: &Path,
 ) -> Result<(), Error> {
-    let uncut = |surface: &Surface| Surface {
-        divisions: None,
-        ..surface.clone()
-    };
-    let surfaces: Vec<Surface> = scene.geometry.iter().map(uncut).collect();
+    let uncut = scene.geometry.iter().map(Surface::without_divisions);
+    let surfaces: Vec<Surface> = uncut.collect();
     let mesh = subdivide(&surfaces, divisions).map_err(|error| Error::of_mesh(scene, &error))?;
     let terminal = Terminal::new(false);
     let start = Instant::now();

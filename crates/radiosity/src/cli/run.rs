@@ -116,10 +116,11 @@ fn display(args: &DisplayCommand, site: &Site) -> Result<(), Error> {
 fn check(args: &CheckArgs, site: &Site) -> Result<(), Error> {
     let mut scene = site.load(&args.scene.scene)?;
     args.scene.apply(&mut scene);
-    for line in check_lines(&scene)? {
+    let needs = needs_of(&scene)?;
+    for line in check_lines(&scene, &needs) {
         say(&line)?;
     }
-    needs_of(&scene)?.check_memory()
+    needs.check_memory()
 }
 
 /// The solution, with each stage reported as soon as it is done.
