@@ -20,6 +20,9 @@ pub enum Error {
         /// What there is.
         help: String,
     },
+    /// Another input is wrong.
+    #[error("error: {0}")]
+    Input(String),
     /// A picture was asked of a scene without a camera.
     #[error(
         "error: the scene has no camera\n   = help: add a [camera] with `position`, `look_at` and `vertical_fov`, or use `solve`"
@@ -63,7 +66,11 @@ impl Error {
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::Cache(_) | Error::Output { .. } => 1,
-            Error::Scene(_) | Error::NoSuchScene { .. } | Error::NoCamera | Error::Mesh(_) => 3,
+            Error::Scene(_)
+            | Error::NoSuchScene { .. }
+            | Error::NoCamera
+            | Error::Input(_)
+            | Error::Mesh(_) => 3,
             Error::Resources { .. } => 4,
             Error::Unsolvable { .. } => 5,
         }

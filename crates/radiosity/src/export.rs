@@ -1,5 +1,6 @@
 //! Results as tables.
 
+use radiosity_compare::Cell;
 use radiosity_geometry::{Face, Mesh};
 use radiosity_reference::CellMean;
 use radiosity_scene::Scene;
@@ -25,6 +26,21 @@ pub fn reference_csv(scene: &Scene, mesh: &Mesh, cells: &[CellMean]) -> Vec<u8> 
         let errors = cell.standard_error.map(|e| format!("{e:.2e}"));
         [means, errors].concat()
     })
+}
+
+/// The patches that the tables of a scene have, in their order.
+pub fn cells(scene: &Scene, mesh: &Mesh) -> Vec<Cell> {
+    let cell = |(index, cell): (usize, [u32; 2])| {
+        let (patch, face) = (&mesh.patches[index], mesh.face_of(index));
+        let material = scene.material(face.surface, face.input_index);
+        Cell {
+            surface: scene.surfaces[patch.surface.index()].name.clone(),
+            cell,
+            area: patch.area,
+            emits: material.emission != [0.0; 3],
+        }
+    };
+    input_order(scene, mesh).into_iter().map(cell).collect()
 }
 
 fn table(

@@ -38,12 +38,13 @@ mod settings;
 
 pub use artifact::{How, Origin, Sources};
 pub use error::Error;
-pub use export::{radiosity_csv, reference_csv};
+pub use export::{cells, radiosity_csv, reference_csv};
 pub use observer::{Observer, Silent, Stage};
 pub use pipeline::{FormFactorsMade, Pipeline, Solved};
 pub use rows::RowSummary;
 
 pub use radiosity_cache as cache;
+pub use radiosity_compare as compare;
 pub use radiosity_form_factors as form_factors;
 pub use radiosity_geometry as geometry;
 pub use radiosity_matrix as matrix;

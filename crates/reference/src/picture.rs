@@ -4,7 +4,7 @@ use crate::Rgb;
 use crate::path::radiosity;
 use crate::statistics::Samples;
 use crate::world::World;
-use radiosity_geometry::{Camera, DVec2, Divisions, MeshError, SubpixelTents, Surface, subdivide};
+use radiosity_geometry::{Camera, DVec2, Divisions, MeshError, SubpixelTents, subdivide};
 use radiosity_scene::Scene;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -40,9 +40,7 @@ pub struct Tracer<'a> {
 impl<'a> Tracer<'a> {
     /// Prepares the scene's picture, with its size and filter, as a camera sees it.
     pub fn new(scene: &Scene, camera: &'a Camera, seed: u64) -> Result<Tracer<'a>, MeshError> {
-        let whole = scene.geometry.iter().map(Surface::without_divisions);
-        let surfaces: Vec<Surface> = whole.collect();
-        let faces = subdivide(&surfaces, Divisions::uniform(1))?;
+        let faces = subdivide(&scene.undivided(), Divisions::uniform(1))?;
         let (width, height) = (scene.image.width, scene.image.height);
         Ok(Tracer {
             world: World::new(scene, &faces),

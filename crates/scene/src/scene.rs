@@ -38,6 +38,14 @@ impl Scene {
         let materials = &self.surfaces[surface.index()].materials;
         &self.materials[materials[input_face as usize]]
     }
+
+    /// The surfaces without the divisions that the scene gives them.
+    pub fn undivided(&self) -> Vec<geometry::Surface> {
+        self.geometry
+            .iter()
+            .map(geometry::Surface::without_divisions)
+            .collect()
+    }
 }
 
 /// Reads and checks a scene file, and the mesh files that it names.

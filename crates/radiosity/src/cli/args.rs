@@ -19,6 +19,8 @@ pub enum Command {
     /// Trace a scene by random walks: the unbiased picture or patch radiosities that others are
     /// judged by, with standard errors
     Reference(ReferenceCommand),
+    /// Compare two pictures or two tables of radiosities: the error of one against the other
+    Compare(CompareCommand),
     /// Check a scene, and say what memory and disk it would take, without computing anything
     Check(CheckArgs),
     /// See or empty the cache
@@ -200,6 +202,41 @@ pub struct ReferenceCommand {
     pub threads: Option<u32>,
 }
 
+/// `compare`.
+#[derive(Debug, Args)]
+pub struct CompareCommand {
+    /// A picture (.exr, .pfm, .ppm, .png) or a table of radiosities (.csv)
+    pub found: PathBuf,
+    /// What it should be
+    pub reference: PathBuf,
+    /// Map of the regions of a picture: an 8-bit grey PNG whose levels are their numbers
+    #[arg(long, value_name = "MAP.png")]
+    pub regions: Option<PathBuf>,
+    /// The scene: its exposure and gamma for pictures; its areas and emitters for tables, which
+    /// need it
+    #[arg(long)]
+    pub scene: Option<String>,
+    /// Cells along each edge of every surface in the tables, as N or AxB [default: the scene's
+    /// own patches]
+    #[arg(long, value_name = "N", value_parser = parse_counts)]
+    pub patches: Option<(u32, u32)>,
+    /// Factor from radiance to brightness: pixels of the reference that exceed 1 are left out,
+    /// and levels are divided by it [default: the scene's, or 1]
+    #[arg(long, value_name = "X", value_parser = parse_positive, allow_negative_numbers = true)]
+    pub exposure: Option<f64>,
+    /// Exponent by which levels of .ppm and .png become brightness [default: the scene's, a
+    /// PNG's own, or 2.2]
+    #[arg(long, value_name = "X", value_parser = parse_positive, allow_negative_numbers = true)]
+    pub gamma: Option<f64>,
+    /// Write the differences: .png in colours (red: brighter, blue: darker), .pfm as linear
+    /// numbers
+    #[arg(long, value_name = "FILE", value_parser = parse_difference_path)]
+    pub difference: Option<PathBuf>,
+    /// Print one JSON object on standard output
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// `check`.
 #[derive(Debug, Args)]
 #[allow(
@@ -341,9 +378,20 @@ fn parse_tolerance(text: &str) -> Result<f64, String> {
 }
 
 fn parse_csv_path(text: &str) -> Result<PathBuf, String> {
+    parse_path(text, &["csv"])
+}
+
+fn parse_difference_path(text: &str) -> Result<PathBuf, String> {
+    parse_path(text, &["png", "pfm"])
+}
+
+fn parse_path(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match path.extension() {
-        Some(extension) if extension == "csv" => Ok(path),
-        _ => Err("expected a path that ends in .csv".to_owned()),
+        Some(found) if endings.iter().any(|ending| found == *ending) => Ok(path),
+        _ => Err(format!(
+            "expected a path that ends in .{}",
+            endings.join(" or .")
+        )),
     }
 }

@@ -2,14 +2,16 @@
 
 mod args;
 mod cache_folder;
+mod compare;
 mod reference;
 mod run;
 mod site;
 pub(crate) mod terminal;
 
 pub use args::{
-    CacheAction, CacheArgs, CacheCommand, CheckArgs, Command, DisplayArgs, DisplayCommand,
-    EstimateArgs, FormFactorsCommand, ReferenceCommand, SceneArgs, SolveArgs, SolveCommand,
+    CacheAction, CacheArgs, CacheCommand, CheckArgs, Command, CompareCommand, DisplayArgs,
+    DisplayCommand, EstimateArgs, FormFactorsCommand, ReferenceCommand, SceneArgs, SolveArgs,
+    SolveCommand,
 };
 pub use run::run;
 pub use site::Site;
@@ -20,6 +22,6 @@ Exit codes:
   0  done, warnings included
   1  a file cannot be written, or another failure
   2  the command line is wrong
-  3  the scene is wrong
+  3  the scene or another input is wrong
   4  the machine has too little memory or disk
   5  the system of equations has no solution";

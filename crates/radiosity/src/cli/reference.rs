@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::export::reference_csv;
 use crate::observer::{Observer, Stage};
 use crate::resources::{check_image, grouped};
-use radiosity_geometry::{Divisions, Surface, subdivide};
+use radiosity_geometry::{Divisions, subdivide};
 use radiosity_reference::{Tracer, cell_means};
 use radiosity_renderer::{Image, PictureFormat, ToneMap, encode, encode_pfm};
 use radiosity_scene::Scene;
@@ -38,9 +38,8 @@ fn cells(
     divisions: Divisions,
     folder: &Path,
 ) -> Result<(), Error> {
-    let uncut = scene.geometry.iter().map(Surface::without_divisions);
-    let surfaces: Vec<Surface> = uncut.collect();
-    let mesh = subdivide(&surfaces, divisions).map_err(|error| Error::of_mesh(scene, &error))?;
+    let mesh =
+        subdivide(&scene.undivided(), divisions).map_err(|error| Error::of_mesh(scene, &error))?;
     let terminal = Terminal::new(false);
     let start = Instant::now();
     terminal.begin(Stage::Reference, mesh.patches.len() as u64);

@@ -5,6 +5,7 @@ use super::args::{
     SolveCommand,
 };
 use super::cache_folder;
+use super::compare;
 use super::reference;
 use super::site::Site;
 use super::terminal::{Terminal, say};
@@ -29,6 +30,7 @@ pub fn run(command: &Command, site: &Site) -> ExitCode {
         Command::FormFactors(args) => form_factors(args, site),
         Command::Solve(args) => solve(args, site),
         Command::Reference(args) => reference::run(args, site),
+        Command::Compare(args) => compare::run(args, site),
         Command::Check(args) => check(args, site),
         Command::Cache(args) => cache_folder::run(args, site),
     };
@@ -156,7 +158,7 @@ pub(super) fn with_threads(
 }
 
 /// Refuses a result in a folder that does not exist, before anything is computed for it.
-fn check_folder_of(path: &Path) -> Result<(), Error> {
+pub(super) fn check_folder_of(path: &Path) -> Result<(), Error> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),

@@ -1,0 +1,154 @@
+//! `compare`: how far one result is from another.
+
+use super::args::CompareCommand;
+use super::run::{check_folder_of, write};
+use super::site::Site;
+use super::terminal::say;
+use crate::error::Error;
+use crate::export::cells;
+use radiosity_compare::{
+    Decoded, Errors, Screen, compare_pictures, compare_tables, decode_picture, decode_regions,
+    difference_picture, parse_table,
+};
+use radiosity_geometry::{Divisions, subdivide};
+use radiosity_renderer::{Image, PictureFormat, encode, encode_pfm};
+use radiosity_scene::Scene;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// The object that `--json` prints. Fields may be added, but not changed or removed.
+#[derive(Debug, Serialize)]
+struct Json {
+    /// The compared files.
+    found: PathBuf,
+    reference: PathBuf,
+    /// Regions of pictures, surfaces of tables, and `all`.
+    regions: BTreeMap<String, Errors>,
+    /// The written picture of differences.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    difference: Option<PathBuf>,
+}
+
+pub(crate) fn run(args: &CompareCommand, site: &Site) -> Result<(), Error> {
+    let scene = args.scene.as_ref().map(|name| site.load(name));
+    let scene = scene.transpose()?;
+    if let Some(path) = &args.difference {
+        check_folder_of(path)?;
+    }
+    let is_table = |path: &Path| path.extension().is_some_and(|ending| ending == "csv");
+    let named = match [&args.found, &args.reference].map(|path| is_table(path)) {
+        [false, false] => pictures(args, scene.as_ref())?,
+        [true, true] => tables(args, scene.as_ref())?,
+        _ => {
+            let problem = "a picture cannot be compared with a table (.csv)";
+            return Err(Error::Input(problem.to_owned()));
+        }
+    };
+    if args.json {
+        let json = Json {
+            found: args.found.clone(),
+            reference: args.reference.clone(),
+            regions: named.into_iter().collect(),
+            difference: args.difference.clone(),
+        };
+        return say(&serde_json::to_string(&json).expect("plain data always encodes"));
+    }
+    print(&named)?;
+    match &args.difference {
+        Some(path) => say(&path.display().to_string()),
+        None => Ok(()),
+    }
+}
+
+fn pictures(args: &CompareCommand, scene: Option<&Scene>) -> Result<Vec<(String, Errors)>, Error> {
+    let image = scene.map(|scene| &scene.image);
+    let exposure = args.exposure.or(image.map(|image| image.exposure));
+    let screen = Screen {
+        exposure: exposure.unwrap_or(1.0),
+        gamma: args.gamma.or(image.map(|image| image.gamma)),
+    };
+    let picture = |path: &Path| decode_picture(&read(path)?, &screen).map_err(at(path));
+    let (found, reference) = (picture(&args.found)?, picture(&args.reference)?);
+    let map = args.regions.as_deref();
+    let map = map.map(|path| decode_regions(&read(path)?).map_err(at(path)));
+    let map = map.transpose()?;
+    let errors = compare_pictures(&found.image, &reference, map.as_ref(), screen.exposure);
+    let errors = errors.map_err(|error| Error::Input(error.to_string()))?;
+    if let Some(path) = &args.difference {
+        write(path, &difference(path, &found, &reference))?;
+    }
+    Ok(errors)
+}
+
+/// The bytes of the picture of differences: linear and signed where the file is a float map.
+fn difference(path: &Path, found: &Decoded, reference: &Decoded) -> Vec<u8> {
+    let (found, reference) = (&found.image, &reference.image);
+    if path.extension().is_some_and(|ending| ending == "pfm") {
+        let pairs = found.pixels.iter().zip(&reference.pixels);
+        let minus = |(f, r): (&[f32; 3], &[f32; 3])| std::array::from_fn(|c| f[c] - r[c]);
+        return encode_pfm(&Image {
+            width: found.width,
+            height: found.height,
+            pixels: pairs.map(minus).collect(),
+        });
+    }
+    let shown = difference_picture(found, reference);
+    eprintln!(
+        "red: brighter than the reference, blue: darker; full colour at a difference of {:.3e} W/(m^2 sr)",
+        shown.full_scale
+    );
+    encode(&shown.picture, PictureFormat::Png { gamma: 2.2 })
+}
+
+fn tables(args: &CompareCommand, scene: Option<&Scene>) -> Result<Vec<(String, Errors)>, Error> {
+    let needs_scene =
+        || Error::Input("tables do not tell the areas of patches: name their --scene".to_owned());
+    let only_pictures = [args.regions.is_some(), args.difference.is_some()];
+    if only_pictures.contains(&true) {
+        let problem = "--regions and --difference are for pictures, not for tables";
+        return Err(Error::Input(problem.to_owned()));
+    }
+    let scene = scene.ok_or_else(needs_scene)?;
+    let of_mesh = |error| Error::of_mesh(scene, &error);
+    let mesh = match args.patches {
+        Some((a, b)) => subdivide(&scene.undivided(), Divisions::Count { a, b }),
+        None => subdivide(&scene.geometry, scene.divisions),
+    };
+    let cells = cells(scene, &mesh.map_err(of_mesh)?);
+    let table = |path: &Path| parse_table(&read(path)?).map_err(at(path));
+    let (found, reference) = (table(&args.found)?, table(&args.reference)?);
+    compare_tables(&cells, &found, &reference).map_err(|error| Error::Input(error.to_string()))
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, Error> {
+    std::fs::read(path)
+        .map_err(|error| Error::Input(format!("cannot read {}: {error}", path.display())))
+}
+
+/// Says which file an error is about.
+fn at<E: std::fmt::Display>(path: &Path) -> impl Fn(E) -> Error {
+    move |error| Error::Input(format!("{} {error}", path.display()))
+}
+
+fn print(named: &[(String, Errors)]) -> Result<(), Error> {
+    let longest = named.iter().map(|(name, _)| name.chars().count()).max();
+    let width = longest.unwrap_or(0).max(12);
+    say(&format!(
+        "{:<width$}    RMSE %    bias %    median       90 %       99 %    largest    values",
+        ""
+    ))?;
+    for (name, errors) in named {
+        let Errors {
+            rmse_percent: rmse,
+            bias_percent: bias,
+            percentiles: p,
+            values,
+        } = errors;
+        say(&format!(
+            "{name:<width$}{rmse:>10.3}{bias:>+10.3}{:>10.3}{:>11.3}{:>11.3}{:>11.3}{values:>10}",
+            p.p50, p.p90, p.p99, p.max
+        ))?;
+    }
+    say("in percent of the mean of the reference")
+}
