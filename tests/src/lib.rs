@@ -4,8 +4,8 @@
 mod measure;
 mod reference;
 
-pub use measure::{Errors, picture_errors, radiosity_errors};
-pub use reference::{RadiosityTable, radiance, radiosity_table, regions};
+pub use measure::{picture_errors, radiosity_errors};
+pub use reference::{radiance, radiosity_table, regions};
 
 use radiosity::scene::{Scene, load};
 use radiosity::solver::Solution;
