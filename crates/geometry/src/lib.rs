@@ -1,5 +1,5 @@
 //! Turns surfaces ([`Surface`]) into a [`Mesh`] of patches, answers which face a ray meets
-//! ([`Occluders`]), and says where the rays of a picture go ([`Camera`], [`SubpixelTents`]).
+//! ([`Occluders`]), and says where the rays of a picture go ([`Camera`], [`Film`]).
 //!
 //! Conventions, for the whole project:
 //!
@@ -17,7 +17,7 @@ mod bounds;
 mod bvh;
 mod camera;
 mod check;
-mod filter;
+mod film;
 mod locate;
 mod mesh;
 mod morton;
@@ -32,7 +32,7 @@ mod subdivide;
 pub use bounds::Aabb;
 pub use camera::{Camera, CameraError};
 pub use check::ShapeError;
-pub use filter::SubpixelTents;
+pub use film::{Film, PixelFilter};
 pub use glam::{DVec2, DVec3};
 pub use locate::Location;
 pub use mesh::{Face, FaceId, Grid, Mesh, Patch, SurfaceId};

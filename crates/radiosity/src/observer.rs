@@ -9,7 +9,7 @@ pub enum Stage {
     Solve,
     /// Counted in rows of pixels.
     Display,
-    /// Counted in rows of pixels of one pass, or in patches.
+    /// Counted in rows of pixels of all passes, or in patches.
     Reference,
 }
 

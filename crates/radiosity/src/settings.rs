@@ -31,6 +31,7 @@ pub(crate) fn image_params(scene: &Scene) -> ImageParams {
         width: image.width,
         height: image.height,
         subpixels: image.subpixels,
+        filter: image.filter,
         samples: image.samples,
         seed: image.seed,
         ..ImageParams::default()

@@ -41,6 +41,43 @@ fn reference_pictures_are_traced() {
     );
 }
 
+/// `--json` says what the lines say; dark scenes end, however small an error is asked for.
+#[test]
+fn runs_are_reported_for_scripts() {
+    let place = Place::new();
+    let json = place.json("reference room.toml --spp 8 --filter box");
+    assert_eq!(
+        (&json["scene"], &json["walks"]),
+        (&"room".into(), &8.into())
+    );
+    assert!(json["picture"]["error_percent"].as_f64().unwrap() > 0.0);
+    assert!(json["picture"]["vertices"].as_u64().unwrap() > 0);
+    let radiance = json["outputs"]["radiance"].as_str().unwrap();
+    let boxed = fs::read(place.path(radiance)).unwrap();
+    place.succeed("reference room.toml --spp 8 --filter tents");
+    assert_ne!(fs::read(place.path(radiance)).unwrap(), boxed);
+    let json = place.json("reference room.toml --cells --spp 10");
+    assert_eq!(json["patches"], 9 + 1 + 4 + 3);
+    assert!(
+        json["outputs"]["table"]
+            .as_str()
+            .unwrap()
+            .ends_with("room-reference.csv")
+    );
+    place.write("dark.toml", &SCENE.replace("emission = [4, 3, 2]", ""));
+    let json = place.json("reference dark.toml --error 0.001");
+    assert_eq!(json["picture"]["error_percent"], 0.0);
+}
+
+/// The scene's own patches are those of solutions, whatever surfaces are cut into.
+#[test]
+fn reference_cells_are_the_solutions() {
+    let place = Place::new();
+    place.succeed("reference room.toml --cells --spp 100");
+    place.succeed("solve room.toml --no-cache --export solved.csv");
+    place.succeed("compare solved.csv out/room-reference.csv --scene room.toml");
+}
+
 /// Patch radiosities of the solver and of the oracle are tables with the same rows.
 #[test]
 fn reference_tables_have_the_rows_of_solutions() {

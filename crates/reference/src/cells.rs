@@ -2,7 +2,7 @@
 
 use crate::Rgb;
 use crate::emitters::uniform_point;
-use crate::path::radiosity;
+use crate::path::walk;
 use crate::statistics::Samples;
 use crate::world::World;
 use radiosity_geometry::Mesh;
@@ -39,7 +39,7 @@ pub fn cell_means(
         let mut sums = Samples::default();
         for _ in 0..samples {
             let start = (patch.face, uniform_point(&patch.polygon, &mut rng));
-            sums.add(radiosity(&world, start, &mut rng));
+            sums.add(walk(&world, start, &mut rng).radiosity);
         }
         progress(1);
         CellMean {

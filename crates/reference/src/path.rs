@@ -16,9 +16,19 @@ const SURE_BOUNCES: u32 = 3;
 /// The largest chance: a room of reflectance 1 must not hold a walk for ever.
 const LARGEST_SURVIVAL: f64 = 0.95;
 
-/// An unbiased estimate of the radiosity `B` at a point on the front of a face, W/m^2.
-pub(crate) fn radiosity(world: &World, start: (FaceId, DVec3), rng: &mut impl Rng) -> Rgb {
+/// What a random walk from a point has found.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Walk {
+    /// An unbiased estimate of the radiosity `B` at the point, W/m^2.
+    pub(crate) radiosity: Rgb,
+    /// Points of surfaces where it gathered light, the first included.
+    pub(crate) vertices: u32,
+}
+
+/// Walks from a point on the front of a face.
+pub(crate) fn walk(world: &World, start: (FaceId, DVec3), rng: &mut impl Rng) -> Walk {
     let mut result = world.face(start.0).emission;
+    let mut vertices = 1;
     let mut throughput = [1.0; 3];
     let (mut face, mut point) = start;
     for bounce in 0.. {
@@ -42,8 +52,12 @@ pub(crate) fn radiosity(world: &World, start: (FaceId, DVec3), rng: &mut impl Rn
         let emission = world.face(next).emission.map(|e| weight * e);
         add(&mut result, multiply(throughput, emission));
         (face, point) = (next, at);
+        vertices += 1;
     }
-    result
+    Walk {
+        radiosity: result,
+        vertices,
+    }
 }
 
 /// Russian roulette: walks that carry little go on rarely, and then carry more.

@@ -1,10 +1,10 @@
 //! The path-traced picture.
 
 use crate::Rgb;
-use crate::path::radiosity;
+use crate::path::{Walk, walk};
 use crate::statistics::Samples;
 use crate::world::World;
-use radiosity_geometry::{Camera, DVec2, Divisions, MeshError, SubpixelTents, subdivide};
+use radiosity_geometry::{Camera, DVec2, Divisions, Film, MeshError, subdivide};
 use radiosity_scene::Scene;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -29,11 +29,10 @@ pub struct TracedPicture {
 pub struct Tracer<'a> {
     world: World,
     camera: &'a Camera,
-    filter: SubpixelTents,
-    width: u32,
-    height: u32,
+    film: Film,
     seed: u64,
     passes: u32,
+    vertices: u64,
     pixels: Vec<Samples>,
 }
 
@@ -41,24 +40,28 @@ impl<'a> Tracer<'a> {
     /// Prepares the scene's picture, with its size and filter, as a camera sees it.
     pub fn new(scene: &Scene, camera: &'a Camera, seed: u64) -> Result<Tracer<'a>, MeshError> {
         let faces = subdivide(&scene.undivided(), Divisions::uniform(1))?;
-        let (width, height) = (scene.image.width, scene.image.height);
+        let image = &scene.image;
+        let film = Film {
+            width: image.width,
+            height: image.height,
+            subpixels: image.subpixels,
+            filter: image.filter,
+        };
+        let pixels = film.width as usize * film.height as usize;
         Ok(Tracer {
             world: World::new(scene, &faces),
             camera,
-            filter: SubpixelTents {
-                subpixels: scene.image.subpixels,
-            },
-            width,
-            height,
+            film,
             seed,
             passes: 0,
-            pixels: vec![Samples::default(); width as usize * height as usize],
+            vertices: 0,
+            pixels: vec![Samples::default(); pixels],
         })
     }
 
     /// Random walks per pixel in each pass: one for each sub-pixel.
     pub fn samples_per_pass(&self) -> u32 {
-        self.filter.parts()
+        self.film.parts()
     }
 
     /// Random walks per pixel so far.
@@ -66,17 +69,25 @@ impl<'a> Tracer<'a> {
         self.passes * self.samples_per_pass()
     }
 
+    /// Points of surfaces where light was gathered so far, the seen ones included: the work
+    /// done. Each took a ray to find it, and a ray to an emitter where that faces it.
+    pub fn vertices(&self) -> u64 {
+        self.vertices
+    }
+
     /// Adds a pass. Its random numbers depend on the seed, the pixel and the number of passes
     /// before it alone. `progress` is told how many further rows are done, from any thread.
     pub fn pass(&mut self, progress: &(dyn Fn(u64) + Sync)) {
         let mut pixels = std::mem::take(&mut self.pixels);
-        let rows = pixels.par_chunks_mut(self.width as usize);
-        rows.enumerate().for_each(|(y, row)| {
-            for (x, pixel) in row.iter_mut().enumerate() {
-                self.sample_pixel(x as u32, y as u32, pixel);
-            }
+        let rows = pixels.par_chunks_mut(self.film.width as usize);
+        let trace_row = |(y, row): (usize, &mut [Samples])| -> u64 {
+            let columns = row.iter_mut().enumerate();
+            let vertices = columns.map(|(x, pixel)| self.sample_pixel(x as u32, y as u32, pixel));
+            let vertices = vertices.sum();
             progress(1);
-        });
+            vertices
+        };
+        self.vertices += rows.enumerate().map(trace_row).sum::<u64>();
         self.pixels = pixels;
         self.passes += 1;
     }
@@ -84,43 +95,55 @@ impl<'a> Tracer<'a> {
     /// The picture so far.
     pub fn picture(&self) -> TracedPicture {
         TracedPicture {
-            width: self.width,
-            height: self.height,
+            width: self.film.width,
+            height: self.film.height,
             radiance: self.pixels.iter().map(Samples::mean).collect(),
             standard_error: self.pixels.iter().map(Samples::standard_error).collect(),
         }
     }
 
     /// The estimated root mean square error of the picture so far, relative to its mean, over
-    /// the pixels whose radiance times `exposure` is at most 1 in all channels.
+    /// the pixels whose radiance times `exposure` is at most 1 in all channels; if there are
+    /// none, over all pixels. A black picture has no error.
     pub fn relative_error(&self, exposure: f64) -> f64 {
-        let (mut squares, mut sum) = (0.0, 0.0);
-        let mut values = 0.0;
-        for pixel in &self.pixels {
-            let radiance = pixel.mean();
-            if radiance.iter().all(|c| exposure * c <= 1.0) {
-                sum += radiance.iter().sum::<f64>();
-                squares += pixel.standard_error().iter().map(|e| e * e).sum::<f64>();
-                values += 3.0;
-            }
+        let shown = |pixel: &&Samples| pixel.mean().iter().all(|c| exposure * c <= 1.0);
+        let unclamped: Vec<&Samples> = self.pixels.iter().filter(shown).collect();
+        if unclamped.is_empty() {
+            relative_error(self.pixels.iter())
+        } else {
+            relative_error(unclamped.into_iter())
         }
-        (squares / values).sqrt() / (sum / values)
     }
 
-    fn sample_pixel(&self, x: u32, y: u32, pixel: &mut Samples) {
+    /// Adds a sample to each part of a pixel; returns the number of vertices.
+    fn sample_pixel(&self, x: u32, y: u32, pixel: &mut Samples) -> u64 {
         let place = u64::from(y) << 32 | u64::from(x);
         let pass = u64::from(self.passes).rotate_left(48);
         let mut rng = Pcg64Mcg::seed_from_u64(place ^ pass ^ self.seed.rotate_left(17));
-        let aspect = f64::from(self.width) / f64::from(self.height);
-        for part in 0..self.filter.parts() {
+        let mut vertices = 0;
+        for part in 0..self.film.parts() {
             let uniform = DVec2::new(rng.random(), rng.random());
-            let offset = self.filter.offset(part, uniform);
-            let film_x = (f64::from(x) + offset.x) / f64::from(self.width);
-            let film_y = (f64::from(y) + offset.y) / f64::from(self.height);
-            let ray = self.camera.ray(film_x, film_y, aspect);
+            let ray = self.film.ray(self.camera, x, y, part, uniform);
             let seen = self.world.first_front(&ray, self.camera.near());
-            let shown = seen.map_or([0.0; 3], |start| radiosity(&self.world, start, &mut rng));
-            pixel.add(shown.map(|b| b / PI));
+            let walk = seen.map_or(Walk::default(), |start| walk(&self.world, start, &mut rng));
+            pixel.add(walk.radiosity.map(|b| b / PI));
+            vertices += u64::from(walk.vertices);
         }
+        vertices
+    }
+}
+
+/// The root mean square of the standard errors relative to the mean; zero in the dark.
+fn relative_error<'a>(pixels: impl Iterator<Item = &'a Samples>) -> f64 {
+    let (mut squares, mut sum, mut values) = (0.0, 0.0, 0.0);
+    for pixel in pixels {
+        squares += pixel.standard_error().iter().map(|e| e * e).sum::<f64>();
+        sum += pixel.mean().iter().sum::<f64>();
+        values += 3.0;
+    }
+    if sum > 0.0 {
+        (squares / values).sqrt() / (sum / values)
+    } else {
+        0.0
     }
 }

@@ -4,7 +4,7 @@ use crate::fields::Fields;
 use crate::image::Image;
 use crate::interpolate::{DEFAULT_CREASE_ANGLE, Interpolant};
 use crate::{Rgb, add_scaled};
-use radiosity_geometry::{Camera, DVec2, Mesh, Occluders, SubpixelTents};
+use radiosity_geometry::{Camera, DVec2, Film, Mesh, Occluders, PixelFilter, Ray};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
@@ -19,6 +19,8 @@ pub struct ImageParams {
     pub height: u32,
     /// Sub-pixels along each edge of a pixel.
     pub subpixels: u32,
+    /// How samples are spread around sub-pixels.
+    pub filter: PixelFilter,
     /// Samples per sub-pixel.
     pub samples: u32,
     /// Seed of the sample positions.
@@ -35,9 +37,21 @@ impl Default for ImageParams {
             width: 640,
             height: 480,
             subpixels: 2,
+            filter: PixelFilter::default(),
             samples: 4,
             seed: 0,
             crease_angle: DEFAULT_CREASE_ANGLE,
+        }
+    }
+}
+
+impl ImageParams {
+    fn film(&self) -> Film {
+        Film {
+            width: self.width,
+            height: self.height,
+            subpixels: self.subpixels,
+            filter: self.filter,
         }
     }
 }
@@ -93,26 +107,17 @@ impl View<'_> {
     /// The radiance of a pixel, patch-constant and smooth. Its random numbers depend on the
     /// seed and its position alone.
     fn pixel(&self, x: u32, y: u32) -> (Rgb, Rgb) {
-        let ImageParams {
-            width,
-            height,
-            subpixels,
-            samples,
-            seed,
-            ..
-        } = *self.params;
+        let ImageParams { samples, seed, .. } = *self.params;
         let stream = (u64::from(y) << 32 | u64::from(x)) ^ seed.rotate_left(17);
         let mut rng = Pcg64Mcg::seed_from_u64(stream);
-        let filter = SubpixelTents { subpixels };
-        let count = filter.parts() * samples;
+        let film = self.params.film();
+        let count = film.parts() * samples;
         let weight = 1.0 / (PI * count as f32);
         let (mut constant, mut smooth) = ([0.0; 3], [0.0; 3]);
         for index in 0..count {
             let uniform = DVec2::new(rng.random(), rng.random());
-            let offset = filter.offset(index / samples, uniform);
-            let film_x = (f64::from(x) + offset.x) / f64::from(width);
-            let film_y = (f64::from(y) + offset.y) / f64::from(height);
-            if let Some(both) = self.radiosity(film_x, film_y) {
+            let ray = film.ray(self.camera, x, y, index / samples, uniform);
+            if let Some(both) = self.radiosity(&ray) {
                 add_scaled(&mut constant, weight, both.0);
                 add_scaled(&mut smooth, weight, both.1);
             }
@@ -120,14 +125,10 @@ impl View<'_> {
         (constant, smooth)
     }
 
-    /// The radiosities seen at a point of the film; none on backs and in the background.
-    fn radiosity(&self, film_x: f64, film_y: f64) -> Option<(Rgb, Rgb)> {
-        let aspect = f64::from(self.params.width) / f64::from(self.params.height);
-        let ray = self.camera.ray(film_x, film_y, aspect);
+    /// The radiosities that a ray sees; none on backs and in the background.
+    fn radiosity(&self, ray: &Ray) -> Option<(Rgb, Rgb)> {
         let near = self.camera.near();
-        let hit = self
-            .occluders
-            .closest_hit(&ray, near, f64::INFINITY, None)?;
+        let hit = self.occluders.closest_hit(ray, near, f64::INFINITY, None)?;
         if !hit.front {
             return None;
         }

@@ -2,7 +2,7 @@
 
 use crate::source::{SceneError, Source};
 use crate::values::{Counts, divisions, require};
-use radiosity_geometry::Divisions;
+use radiosity_geometry::{Divisions, PixelFilter};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -15,6 +15,8 @@ pub struct ImageSettings {
     pub height: u32,
     /// Sub-pixels along each edge of a pixel.
     pub subpixels: u32,
+    /// How samples are spread around sub-pixels.
+    pub filter: PixelFilter,
     /// Samples per sub-pixel.
     pub samples: u32,
     /// Radiance is multiplied by this; what then exceeds 1 is clamped.
@@ -64,6 +66,7 @@ pub(crate) struct ImageTable {
     width: Option<Spanned<u32>>,
     height: Option<Spanned<u32>>,
     subpixels: Option<Spanned<u32>>,
+    filter: Option<PixelFilter>,
     samples: Option<Spanned<u32>>,
     exposure: Option<Spanned<f64>>,
     gamma: Option<Spanned<f64>>,
@@ -144,6 +147,7 @@ impl ImageTable {
             width: size(&self.width, 640, "`width`")?,
             height: size(&self.height, 480, "`height`")?,
             subpixels: count(&self.subpixels, 2, "`subpixels`")?,
+            filter: self.filter.unwrap_or_default(),
             samples: count(&self.samples, 4, "`samples`")?,
             exposure: positive(&self.exposure, 1.0, "`exposure`")?,
             gamma: positive(&self.gamma, 2.2, "`gamma`")?,

@@ -1,7 +1,7 @@
 //! The command line, as clap reads it.
 
 use clap::{Args, Subcommand, ValueEnum};
-use radiosity_geometry::Divisions;
+use radiosity_geometry::{Divisions, PixelFilter};
 use radiosity_scene::{Mode, Scene};
 use std::path::PathBuf;
 
@@ -91,24 +91,38 @@ pub struct SolveArgs {
     pub max_sweeps: Option<u32>,
 }
 
-/// How pictures are made.
+/// What a picture is like, however it is made.
 #[derive(Debug, Args)]
-pub struct DisplayArgs {
-    /// Size of the pictures in pixels, as WIDTHxHEIGHT
+pub struct ImageArgs {
+    /// Size of the picture in pixels, as WIDTHxHEIGHT
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
     /// Sub-pixels along each edge of a pixel
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub subpixels: Option<u32>,
-    /// Samples per sub-pixel
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
-    pub samples: Option<u32>,
+    /// How samples are spread around sub-pixels
+    #[arg(long, value_enum)]
+    pub filter: Option<FilterArg>,
     /// Factor from radiance to brightness; what then exceeds 1 is clamped
     #[arg(long, value_name = "X", value_parser = parse_positive, allow_negative_numbers = true)]
     pub exposure: Option<f64>,
     /// Exponent of the screen
     #[arg(long, value_name = "X", value_parser = parse_positive, allow_negative_numbers = true)]
     pub gamma: Option<f64>,
+}
+
+/// How pictures are made.
+#[derive(Debug, Args)]
+#[allow(
+    missing_docs,
+    reason = "comments on flattened fields would replace help texts"
+)]
+pub struct DisplayArgs {
+    #[command(flatten)]
+    pub image: ImageArgs,
+    /// Samples per sub-pixel
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub samples: Option<u32>,
     /// Folder for the pictures [default: out]
     #[arg(long, short, value_name = "DIR")]
     pub output: Option<PathBuf>,
@@ -171,6 +185,10 @@ pub struct DisplayCommand {
 
 /// `reference`.
 #[derive(Debug, Args)]
+#[allow(
+    missing_docs,
+    reason = "comments on flattened fields would replace help texts"
+)]
 pub struct ReferenceCommand {
     /// A scene file, or the name of one in `scenes/`
     #[arg(default_value = "cornell")]
@@ -179,27 +197,33 @@ pub struct ReferenceCommand {
     #[arg(long, value_name = "N", default_value = "64", value_parser = clap::value_parser!(u32).range(1..))]
     pub spp: u32,
     /// Stop the picture after so many seconds; the result then depends on the machine's speed
-    #[arg(long, value_name = "SECONDS", value_parser = parse_positive, allow_negative_numbers = true, conflicts_with_all = ["spp", "patches"])]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_positive, allow_negative_numbers = true, conflicts_with_all = ["spp", "patches", "cells"])]
     pub time: Option<f64>,
     /// Stop when the picture's estimated relative error is below so many percent
-    #[arg(long, value_name = "PERCENT", value_parser = parse_positive, allow_negative_numbers = true, conflicts_with_all = ["spp", "time", "patches"])]
+    #[arg(long, value_name = "PERCENT", value_parser = parse_positive, allow_negative_numbers = true, conflicts_with_all = ["spp", "time", "patches", "cells"])]
     pub error: Option<f64>,
     /// Instead of a picture, the mean radiosity of each cell of an N x N (or AxB) grid over each
     /// surface, hidden parts included, as CSV; faces of meshes are cells as they are
     #[arg(long, value_name = "N", value_parser = parse_counts)]
     pub patches: Option<(u32, u32)>,
+    /// Instead of a picture, the mean radiosity of each of the scene's own patches, as CSV: the
+    /// rows of `solve --export`
+    #[arg(long, conflicts_with = "patches")]
+    pub cells: bool,
     /// Seed of the random walks
     #[arg(long, value_name = "N", default_value = "0")]
     pub seed: u64,
-    /// Size of the picture in pixels, as WIDTHxHEIGHT
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
-    pub size: Option<(u32, u32)>,
+    #[command(flatten)]
+    pub image: ImageArgs,
     /// Folder for the results [default: out]
     #[arg(long, short, value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// Threads to use [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub threads: Option<u32>,
+    /// Print one JSON object on standard output, and everything else on standard error
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `compare`.
@@ -278,6 +302,15 @@ pub enum ModeArg {
     MonteCarlo,
 }
 
+/// [`PixelFilter`] on the command line.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum FilterArg {
+    /// A tent around each sub-pixel that overlaps its neighbours: the course's filter
+    Tents,
+    /// Evenly over the pixel
+    Box,
+}
+
 /// File formats on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum FormatArg {
@@ -324,15 +357,26 @@ impl SolveArgs {
     }
 }
 
-impl DisplayArgs {
+impl ImageArgs {
     pub(crate) fn apply(&self, scene: &mut Scene) {
         let image = &mut scene.image;
         set(&mut image.width, self.size.map(|(width, _)| width));
         set(&mut image.height, self.size.map(|(_, height)| height));
         set(&mut image.subpixels, self.subpixels);
-        set(&mut image.samples, self.samples);
+        let filter = self.filter.map(|filter| match filter {
+            FilterArg::Tents => PixelFilter::Tents,
+            FilterArg::Box => PixelFilter::Box,
+        });
+        set(&mut image.filter, filter);
         set(&mut image.exposure, self.exposure);
         set(&mut image.gamma, self.gamma);
+    }
+}
+
+impl DisplayArgs {
+    pub(crate) fn apply(&self, scene: &mut Scene) {
+        self.image.apply(scene);
+        set(&mut scene.image.samples, self.samples);
     }
 }
 

@@ -10,8 +10,8 @@ pub(crate) mod terminal;
 
 pub use args::{
     CacheAction, CacheArgs, CacheCommand, CheckArgs, Command, CompareCommand, DisplayArgs,
-    DisplayCommand, EstimateArgs, FormFactorsCommand, ReferenceCommand, SceneArgs, SolveArgs,
-    SolveCommand,
+    DisplayCommand, EstimateArgs, FormFactorsCommand, ImageArgs, ReferenceCommand, SceneArgs,
+    SolveArgs, SolveCommand,
 };
 pub use run::run;
 pub use site::Site;

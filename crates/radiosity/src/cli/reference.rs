@@ -12,90 +12,189 @@ use radiosity_geometry::{Divisions, subdivide};
 use radiosity_reference::{Tracer, cell_means};
 use radiosity_renderer::{Image, PictureFormat, ToneMap, encode, encode_pfm};
 use radiosity_scene::Scene;
+use serde::Serialize;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-/// Passes between looks at the error, which takes time itself.
-const PASSES_PER_LOOK: u32 = 4;
+/// With fewer passes a pixel's standard error means nothing.
+const FEWEST_PASSES: u32 = 4;
+/// What an interrupted run loses at most.
+const SAVE_INTERVAL: Duration = Duration::from_secs(10);
+
+/// The object that `--json` prints. Fields may be added, but not changed or removed.
+#[derive(Debug, Serialize)]
+struct Json {
+    /// The scene's name.
+    scene: String,
+    /// Random walks per pixel or patch.
+    walks: u32,
+    seconds: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    picture: Option<PictureReport>,
+    /// How many rows the table has.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    patches: Option<usize>,
+    /// Written files: `radiance`, `standard_error` and `png`, or `table`.
+    outputs: BTreeMap<&'static str, PathBuf>,
+}
+
+#[derive(Debug, Serialize)]
+struct PictureReport {
+    /// The estimated root mean square error, in percent of the mean.
+    error_percent: f64,
+    /// Points of surfaces where walks gathered light.
+    vertices: u64,
+    vertices_per_second_and_thread: f64,
+}
 
 pub(crate) fn run(args: &ReferenceCommand, site: &Site) -> Result<(), Error> {
     let mut scene = site.load(&args.scene)?;
-    if let Some((width, height)) = args.size {
-        (scene.image.width, scene.image.height) = (width, height);
-    }
+    args.image.apply(&mut scene);
     let folder = args.output.as_ref().unwrap_or(&site.output);
     make_folder(folder)?;
-    with_threads(args.threads, || match args.patches {
-        Some((a, b)) => cells(args, &scene, Divisions::Count { a, b }, folder),
-        None => picture(args, &scene, folder),
+    let terminal = Terminal::new(args.json);
+    with_threads(args.threads, || {
+        let json = if args.cells || args.patches.is_some() {
+            table(args, &scene, folder, &terminal)?
+        } else {
+            picture(args, &scene, folder, &terminal)?
+        };
+        for path in json.outputs.values() {
+            terminal.line(&format!("{:<14}{}", "", path.display()));
+        }
+        if args.json {
+            say(&serde_json::to_string(&json).expect("plain data always encodes"))?;
+        }
+        Ok(())
     })
 }
 
-/// The mean radiosity of each cell, whatever divisions the surfaces have of their own.
-fn cells(
+/// The mean radiosity of each cell: of the scene's own patches, or of a grid over each surface
+/// whatever divisions it has of its own.
+fn table(
     args: &ReferenceCommand,
     scene: &Scene,
-    divisions: Divisions,
     folder: &Path,
-) -> Result<(), Error> {
-    let mesh =
-        subdivide(&scene.undivided(), divisions).map_err(|error| Error::of_mesh(scene, &error))?;
-    let terminal = Terminal::new(false);
-    let start = Instant::now();
-    terminal.begin(Stage::Reference, mesh.patches.len() as u64);
+    terminal: &Terminal,
+) -> Result<Json, Error> {
+    let mesh = match args.patches {
+        Some((a, b)) => subdivide(&scene.undivided(), Divisions::Count { a, b }),
+        None => subdivide(&scene.geometry, scene.divisions),
+    };
+    let mesh = mesh.map_err(|error| Error::of_mesh(scene, &error))?;
+    let (start, patches) = (Instant::now(), mesh.patches.len());
+    terminal.begin(Stage::Reference, patches as u64);
+    terminal.update(
+        format!("{} patches", grouped(patches as u64)),
+        patches as u64,
+    );
     let advance = |done| terminal.advance(done);
     let cells = cell_means(scene, &mesh, args.spp, args.seed, &advance);
     terminal.end();
     let path = folder.join(format!("{}-reference.csv", scene.name));
     write(&path, &reference_csv(scene, &mesh, &cells))?;
-    say(&format!(
-        "{:<14}{} patches, {} walks each{:>14.2} s",
+    let seconds = start.elapsed().as_secs_f64();
+    terminal.line(&format!(
+        "{:<14}{} patches, {} walks each{seconds:>14.2} s",
         "reference",
-        grouped(cells.len() as u64),
+        grouped(patches as u64),
         grouped(u64::from(args.spp)),
-        start.elapsed().as_secs_f64(),
-    ))?;
-    say(&format!("{:<14}{}", "", path.display()))
+    ));
+    Ok(Json {
+        scene: scene.name.clone(),
+        walks: args.spp,
+        seconds,
+        picture: None,
+        patches: Some(patches),
+        outputs: BTreeMap::from([("table", path)]),
+    })
 }
 
-fn picture(args: &ReferenceCommand, scene: &Scene, folder: &Path) -> Result<(), Error> {
+fn picture(
+    args: &ReferenceCommand,
+    scene: &Scene,
+    folder: &Path,
+    terminal: &Terminal,
+) -> Result<Json, Error> {
     let camera = scene.camera.as_ref().ok_or(Error::NoCamera)?;
     let (width, height) = (scene.image.width, scene.image.height);
     check_image(width, height)?;
     let of_mesh = |error| Error::of_mesh(scene, &error);
     let mut tracer = Tracer::new(scene, camera, args.seed).map_err(of_mesh)?;
-    let terminal = Terminal::new(false);
     let start = Instant::now();
-    let passes = args.spp.div_ceil(tracer.samples_per_pass());
-    let error = |tracer: &Tracer<'_>| 100.0 * tracer.relative_error(scene.image.exposure);
-    let enough = |tracer: &Tracer<'_>, done: u32| match (args.time, args.error) {
-        (Some(seconds), _) => start.elapsed().as_secs_f64() >= seconds,
-        (_, Some(percent)) => done.is_multiple_of(PASSES_PER_LOOK) && error(tracer) <= percent,
-        _ => done == passes,
-    };
-    for done in 1.. {
-        terminal.begin(Stage::Reference, u64::from(height));
+    let mut saved = start;
+    terminal.begin(Stage::Reference, u64::from(height));
+    let percent = loop {
         tracer.pass(&|rows| terminal.advance(rows));
-        terminal.end();
-        if enough(&tracer, done) {
-            break;
+        let percent = 100.0 * tracer.relative_error(scene.image.exposure);
+        let passes = tracer.samples() / tracer.samples_per_pass();
+        let expected = expected_passes(args, &tracer, start.elapsed().as_secs_f64(), percent);
+        if passes >= expected {
+            break percent;
         }
-    }
+        let walks = tracer.samples();
+        terminal.update(
+            format!("{walks} walks per pixel, error {percent:.2} %"),
+            u64::from(expected) * u64::from(height),
+        );
+        if saved.elapsed() >= SAVE_INTERVAL {
+            save(scene, &tracer, folder)?;
+            saved = Instant::now();
+        }
+    };
+    terminal.end();
     let outputs = save(scene, &tracer, folder)?;
-    say(&format!(
-        "{:<14}{} walks per pixel, estimated error {:.2} %{:>14.2} s",
+    let seconds = start.elapsed().as_secs_f64();
+    let rate = tracer.vertices() as f64 / seconds / rayon::current_num_threads() as f64;
+    terminal.line(&format!(
+        "{:<14}{} walks per pixel, estimated error {percent:.2} %, {:.2} M vertices/s/thread{seconds:>10.2} s",
         "reference",
         tracer.samples(),
-        error(&tracer),
-        start.elapsed().as_secs_f64(),
-    ))?;
-    outputs
-        .iter()
-        .try_for_each(|path| say(&format!("{:<14}{}", "", path.display())))
+        rate / 1e6,
+    ));
+    Ok(Json {
+        scene: scene.name.clone(),
+        walks: tracer.samples(),
+        seconds,
+        picture: Some(PictureReport {
+            error_percent: percent,
+            vertices: tracer.vertices(),
+            vertices_per_second_and_thread: rate,
+        }),
+        patches: None,
+        outputs,
+    })
+}
+
+/// How many passes the picture will have taken when it is done; no more than it has, if it is.
+fn expected_passes(args: &ReferenceCommand, tracer: &Tracer<'_>, seconds: f64, error: f64) -> u32 {
+    let passes = tracer.samples() / tracer.samples_per_pass();
+    let share = match (args.time, args.error) {
+        (Some(limit), _) => seconds / limit,
+        // Errors fall with the square root of the samples.
+        (_, Some(wanted)) => (wanted / error).powi(2),
+        _ => return args.spp.div_ceil(tracer.samples_per_pass()),
+    };
+    let least = if args.error.is_some() {
+        FEWEST_PASSES
+    } else {
+        1
+    };
+    let expected = if share >= 1.0 {
+        passes
+    } else {
+        ((f64::from(passes) / share) as u32).max(passes + 1)
+    };
+    expected.max(least)
 }
 
 /// Writes radiance and standard error as float maps, and the picture for people.
-fn save(scene: &Scene, tracer: &Tracer<'_>, folder: &Path) -> Result<Vec<PathBuf>, Error> {
+fn save(
+    scene: &Scene,
+    tracer: &Tracer<'_>,
+    folder: &Path,
+) -> Result<BTreeMap<&'static str, PathBuf>, Error> {
     let traced = tracer.picture();
     let image = |pixels: &[[f64; 3]]| Image {
         width: traced.width,
@@ -108,19 +207,17 @@ fn save(scene: &Scene, tracer: &Tracer<'_>, folder: &Path) -> Result<Vec<PathBuf
     let (radiance, error) = (image(&traced.radiance), image(&traced.standard_error));
     let (exposure, gamma) = (scene.image.exposure, scene.image.gamma);
     let shown = ToneMap { exposure, gamma }.apply(&radiance);
+    let png = encode(&shown, PictureFormat::Png { gamma });
     let files = [
-        ("reference.pfm", encode_pfm(&radiance)),
-        ("reference-error.pfm", encode_pfm(&error)),
-        (
-            "reference.png",
-            encode(&shown, PictureFormat::Png { gamma }),
-        ),
+        ("radiance", "reference.pfm", encode_pfm(&radiance)),
+        ("standard_error", "reference-error.pfm", encode_pfm(&error)),
+        ("png", "reference.png", png),
     ];
-    let mut paths = Vec::new();
-    for (ending, bytes) in files {
+    let mut paths = BTreeMap::new();
+    for (name, ending, bytes) in files {
         let path = folder.join(format!("{}-{ending}", scene.name));
         write(&path, &bytes)?;
-        paths.push(path);
+        paths.insert(name, path);
     }
     Ok(paths)
 }

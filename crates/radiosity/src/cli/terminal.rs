@@ -32,6 +32,14 @@ impl Terminal {
         }
     }
 
+    /// Changes what the bar says, and how much work there is.
+    pub(crate) fn update(&self, message: String, work: u64) {
+        if let Some(bar) = &*self.bar() {
+            bar.set_message(message);
+            bar.set_length(work);
+        }
+    }
+
     /// One line of the report for people.
     pub(crate) fn line(&self, text: &str) {
         // A closed pipe (`| head`) is no reason to lose the run.
@@ -54,7 +62,7 @@ impl Observer for Terminal {
         let (name, counts) = match stage {
             Stage::FormFactors => ("form factors", "{human_pos} of {human_len} pairs  {rate}  "),
             Stage::Solve => ("solution", ""),
-            Stage::Reference => ("reference", "{human_pos} of {human_len}  {rate}  "),
+            Stage::Reference => ("reference", "{msg}  "),
             Stage::Display => ("pictures", "{human_pos} of {human_len} rows  {rate}  "),
         };
         let template = format!("{name:<14}{{bar:30}} {{percent:>3}} %  {counts}{{eta}} left");
