@@ -1,0 +1,111 @@
+//! AVX2: eight floats are one register, eight doubles two.
+#![allow(
+    unsafe_code,
+    reason = "intrinsics; see `run` for why their use is sound"
+)]
+
+use crate::registers::registers;
+use crate::{Float, InstructionSet, Kernel, LANES, Name, Simd};
+use std::arch::x86_64::*;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Made by [`run`] alone.
+#[derive(Clone, Copy)]
+pub(crate) struct Avx2(());
+
+#[inline]
+pub(crate) fn run<K: Kernel>(set: InstructionSet, kernel: K) -> K::Output {
+    assert_eq!(set.0, Name::Avx2);
+    // SAFETY: `InstructionSet::available` makes this value only where the processor has what
+    // the function asks for. `Avx2` and lanes exist only inside it, so all intrinsics of this
+    // module run there.
+    unsafe { enter(kernel) }
+}
+
+#[target_feature(enable = "avx2")]
+fn enter<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run(Avx2(()))
+}
+
+impl Simd for Avx2 {
+    type F32 = F32;
+    type F64 = F64;
+
+    #[inline(always)]
+    fn f32(self, lanes: &[f32; LANES]) -> F32 {
+        // SAFETY: see `run`.
+        unsafe { F32::load(lanes) }
+    }
+
+    #[inline(always)]
+    fn f64(self, lanes: &[f64; LANES]) -> F64 {
+        // SAFETY: see `run`.
+        unsafe { F64::load(lanes) }
+    }
+
+    #[inline(always)]
+    fn splat_f32(self, number: f32) -> F32 {
+        // SAFETY: see `run`.
+        unsafe { F32::splat(number) }
+    }
+
+    #[inline(always)]
+    fn splat_f64(self, number: f64) -> F64 {
+        // SAFETY: see `run`.
+        unsafe { F64::splat(number) }
+    }
+}
+
+registers! {
+    F32: f32, [__m256; 1],
+    _mm256_loadu_ps, _mm256_storeu_ps, _mm256_set1_ps,
+    _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_min_ps, _mm256_max_ps,
+    less_f32, less_or_equal_f32
+}
+
+registers! {
+    F64: f64, [__m256d; 2],
+    _mm256_loadu_pd, _mm256_storeu_pd, _mm256_set1_pd,
+    _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_min_pd, _mm256_max_pd,
+    less_f64, less_or_equal_f64
+}
+
+macro_rules! compare {
+    ($name:ident, $register:ty, $compare:ident, $relation:ident, $bits:ident) => {
+        /// Only where the processor has the instructions.
+        #[inline(always)]
+        unsafe fn $name(a: $register, b: $register) -> u8 {
+            // SAFETY: the caller's.
+            unsafe { $bits($compare::<$relation>(a, b)) as u8 }
+        }
+    };
+}
+
+compare!(
+    less_f32,
+    __m256,
+    _mm256_cmp_ps,
+    _CMP_LT_OQ,
+    _mm256_movemask_ps
+);
+compare!(
+    less_or_equal_f32,
+    __m256,
+    _mm256_cmp_ps,
+    _CMP_LE_OQ,
+    _mm256_movemask_ps
+);
+compare!(
+    less_f64,
+    __m256d,
+    _mm256_cmp_pd,
+    _CMP_LT_OQ,
+    _mm256_movemask_pd
+);
+compare!(
+    less_or_equal_f64,
+    __m256d,
+    _mm256_cmp_pd,
+    _CMP_LE_OQ,
+    _mm256_movemask_pd
+);

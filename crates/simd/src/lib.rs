@@ -1,0 +1,162 @@
+//! Eight lanes of numbers on the widest registers that the machine has.
+//!
+//! A [`Kernel`] is written once, generic over an instruction set ([`Simd`]); [`dispatch`] runs
+//! it on the best one that the processor has, so a plain release build is the fast one:
+//!
+//! ```
+//! use radiosity_simd::{Float, Kernel, Simd, dispatch};
+//!
+//! struct CountNegative<'a>(&'a [[f64; 8]]);
+//!
+//! impl Kernel for CountNegative<'_> {
+//!     type Output = u32;
+//!
+//!     #[inline(always)] // what it is inlined into is compiled for the instruction set
+//!     fn run<S: Simd>(self, simd: S) -> u32 {
+//!         let zero = simd.splat_f64(0.0);
+//!         self.0.iter().map(|lanes| simd.f64(lanes).less(zero).count_ones()).sum()
+//!     }
+//! }
+//!
+//! assert_eq!(dispatch(CountNegative(&[[-1.0; 8], [1.0; 8]])), 8);
+//! ```
+//!
+//! Every operation rounds as IEEE 754 says, none is fused or approximate, and there are eight
+//! lanes everywhere: all instruction sets give the same bits. The environment variable
+//! `RADIOSITY_SIMD` (`portable`, `avx2`, `avx512`) picks one, to measure or to test.
+
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+mod portable;
+#[cfg(target_arch = "x86_64")]
+mod registers;
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::sync::OnceLock;
+
+/// How many numbers are computed at once.
+pub const LANES: usize = 8;
+
+/// An instruction set that the processor has. Its value is the proof.
+pub trait Simd: Copy {
+    /// Eight numbers in single precision.
+    type F32: Float<f32>;
+    /// Eight numbers in double precision.
+    type F64: Float<f64>;
+
+    /// Loads lanes.
+    fn f32(self, lanes: &[f32; LANES]) -> Self::F32;
+    /// Loads lanes.
+    fn f64(self, lanes: &[f64; LANES]) -> Self::F64;
+    /// The same number in all lanes.
+    fn splat_f32(self, number: f32) -> Self::F32;
+    /// The same number in all lanes.
+    fn splat_f64(self, number: f64) -> Self::F64;
+}
+
+/// Eight numbers. Comparisons answer with one bit per lane, the first lane lowest; nothing
+/// compares with NaN.
+pub trait Float<T>:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// `if self < other { self } else { other }`, lane by lane: with NaN, `other`.
+    fn min(self, other: Self) -> Self;
+    /// `if self > other { self } else { other }`, lane by lane: with NaN, `other`.
+    fn max(self, other: Self) -> Self;
+    /// Where `self < other`.
+    fn less(self, other: Self) -> u8;
+    /// Where `self <= other`.
+    fn less_or_equal(self, other: Self) -> u8;
+    /// The lanes.
+    fn lanes(self) -> [T; LANES];
+}
+
+/// A computation written for any instruction set.
+pub trait Kernel {
+    /// Its result.
+    type Output;
+    /// Computes. Mark this, and what it calls that is generic over [`Simd`], with
+    /// `#[inline(always)]`, and call no closures with lanes: only what is inlined is compiled
+    /// for the instruction set.
+    fn run<S: Simd>(self, simd: S) -> Self::Output;
+}
+
+/// Runs a kernel on the best instruction set of this machine.
+#[inline]
+pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
+    InstructionSet::current().run(kernel)
+}
+
+/// One of the instruction sets of this machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InstructionSet(Name);
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Name {
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    Portable,
+}
+
+impl InstructionSet {
+    /// All that this machine has, the best first.
+    pub fn available() -> Vec<InstructionSet> {
+        let mut sets = Vec::new();
+        #[cfg(target_arch = "x86_64")]
+        {
+            if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl") {
+                sets.push(InstructionSet(Name::Avx512));
+            }
+            if is_x86_feature_detected!("avx2") {
+                sets.push(InstructionSet(Name::Avx2));
+            }
+        }
+        sets.push(InstructionSet(Name::Portable));
+        sets
+    }
+
+    /// The one that [`dispatch`] uses: the best, unless `RADIOSITY_SIMD` names another that the
+    /// machine has.
+    #[inline]
+    pub fn current() -> InstructionSet {
+        static CURRENT: OnceLock<InstructionSet> = OnceLock::new();
+        *CURRENT.get_or_init(|| {
+            let wanted = std::env::var("RADIOSITY_SIMD").unwrap_or_default();
+            let sets = InstructionSet::available();
+            let named = sets.iter().find(|set| set.name() == wanted);
+            *named.unwrap_or(&sets[0])
+        })
+    }
+
+    /// Its name, as `RADIOSITY_SIMD` takes it.
+    pub fn name(self) -> &'static str {
+        match self.0 {
+            #[cfg(target_arch = "x86_64")]
+            Name::Avx512 => "avx512",
+            #[cfg(target_arch = "x86_64")]
+            Name::Avx2 => "avx2",
+            Name::Portable => "portable",
+        }
+    }
+
+    /// Runs a kernel on this instruction set.
+    #[inline]
+    pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
+        match self.0 {
+            #[cfg(target_arch = "x86_64")]
+            Name::Avx512 => avx512::run(self, kernel),
+            #[cfg(target_arch = "x86_64")]
+            Name::Avx2 => avx2::run(self, kernel),
+            Name::Portable => kernel.run(portable::Portable),
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! Arrays: for machines without the other instruction sets, and what those are tested against.
+
+use crate::{Float, LANES, Simd};
+use std::array::from_fn;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+#[derive(Clone, Copy)]
+pub(crate) struct Portable;
+
+#[derive(Clone, Copy)]
+pub(crate) struct Array<T>([T; LANES]);
+
+impl Simd for Portable {
+    type F32 = Array<f32>;
+    type F64 = Array<f64>;
+
+    #[inline(always)]
+    fn f32(self, lanes: &[f32; LANES]) -> Array<f32> {
+        Array(*lanes)
+    }
+
+    #[inline(always)]
+    fn f64(self, lanes: &[f64; LANES]) -> Array<f64> {
+        Array(*lanes)
+    }
+
+    #[inline(always)]
+    fn splat_f32(self, number: f32) -> Array<f32> {
+        Array([number; LANES])
+    }
+
+    #[inline(always)]
+    fn splat_f64(self, number: f64) -> Array<f64> {
+        Array([number; LANES])
+    }
+}
+
+macro_rules! operator {
+    ($trait:ident, $method:ident) => {
+        impl<T: Copy + $trait<Output = T>> $trait for Array<T> {
+            type Output = Array<T>;
+
+            #[inline(always)]
+            fn $method(self, other: Array<T>) -> Array<T> {
+                Array(from_fn(|k| self.0[k].$method(other.0[k])))
+            }
+        }
+    };
+}
+
+operator!(Add, add);
+operator!(Sub, sub);
+operator!(Mul, mul);
+operator!(Div, div);
+
+impl<T: Copy + Neg<Output = T>> Neg for Array<T> {
+    type Output = Array<T>;
+
+    #[inline(always)]
+    fn neg(self) -> Array<T> {
+        Array(self.0.map(T::neg))
+    }
+}
+
+impl<T: Copy + PartialOrd> Array<T> {
+    #[inline(always)]
+    fn choose(self, other: Array<T>, test: impl Fn(&T, &T) -> bool) -> Array<T> {
+        Array(from_fn(|k| {
+            let (a, b) = (self.0[k], other.0[k]);
+            if test(&a, &b) { a } else { b }
+        }))
+    }
+
+    #[inline(always)]
+    fn mask(self, other: Array<T>, test: impl Fn(&T, &T) -> bool) -> u8 {
+        (0..LANES).fold(0, |mask, k| {
+            mask | (u8::from(test(&self.0[k], &other.0[k])) << k)
+        })
+    }
+}
+
+impl<T> Float<T> for Array<T>
+where
+    T: Copy
+        + PartialOrd
+        + Add<Output = T>
+        + Sub<Output = T>
+        + Mul<Output = T>
+        + Div<Output = T>
+        + Neg<Output = T>,
+{
+    #[inline(always)]
+    fn min(self, other: Array<T>) -> Array<T> {
+        self.choose(other, |a, b| a < b)
+    }
+
+    #[inline(always)]
+    fn max(self, other: Array<T>) -> Array<T> {
+        self.choose(other, |a, b| a > b)
+    }
+
+    #[inline(always)]
+    fn less(self, other: Array<T>) -> u8 {
+        self.mask(other, |a, b| a < b)
+    }
+
+    #[inline(always)]
+    fn less_or_equal(self, other: Array<T>) -> u8 {
+        self.mask(other, |a, b| a <= b)
+    }
+
+    #[inline(always)]
+    fn lanes(self) -> [T; LANES] {
+        self.0
+    }
+}

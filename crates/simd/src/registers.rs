@@ -1,0 +1,119 @@
+//! Lanes in one register or several.
+
+/// Defines a type of eight lanes held in `$count` registers, and its operations, by the names
+/// of the intrinsics.
+macro_rules! registers {
+    (
+        $name:ident: $scalar:ty, [$register:ty; $count:literal],
+        $load:ident, $store:ident, $splat:ident,
+        $add:ident, $sub:ident, $mul:ident, $div:ident, $min:ident, $max:ident,
+        $less:ident, $less_or_equal:ident
+    ) => {
+        #[derive(Clone, Copy)]
+        pub(crate) struct $name([$register; $count]);
+
+        impl $name {
+            const WIDTH: usize = LANES / $count;
+
+            /// Loads lanes. Only where the processor has the instructions.
+            #[inline(always)]
+            pub(crate) unsafe fn load(lanes: &[$scalar; LANES]) -> $name {
+                // SAFETY: the caller's for the instruction; every register reads its own part
+                // of the array.
+                unsafe {
+                    let mut registers = [$splat(0.0); $count];
+                    for (k, register) in registers.iter_mut().enumerate() {
+                        *register = $load(lanes.as_ptr().add(k * Self::WIDTH));
+                    }
+                    $name(registers)
+                }
+            }
+
+            /// The same number everywhere. Only where the processor has the instructions.
+            #[inline(always)]
+            pub(crate) unsafe fn splat(number: $scalar) -> $name {
+                // SAFETY: the caller's.
+                $name([unsafe { $splat(number) }; $count])
+            }
+
+            registers!(@pairwise $name, $count, min_registers, $min);
+            registers!(@pairwise $name, $count, max_registers, $max);
+        }
+
+        registers!(@operator $name, $count, Add, add, $add);
+        registers!(@operator $name, $count, Sub, sub, $sub);
+        registers!(@operator $name, $count, Mul, mul, $mul);
+        registers!(@operator $name, $count, Div, div, $div);
+
+        impl Neg for $name {
+            type Output = $name;
+
+            #[inline(always)]
+            fn neg(self) -> $name {
+                // SAFETY: lanes exist only where the processor has the instructions. The
+                // difference from -0 changes the sign of all numbers, of zeros too.
+                unsafe { $name::splat(-0.0) - self }
+            }
+        }
+
+        impl Float<$scalar> for $name {
+            #[inline(always)]
+            fn min(self, other: $name) -> $name {
+                self.min_registers(other)
+            }
+
+            #[inline(always)]
+            fn max(self, other: $name) -> $name {
+                self.max_registers(other)
+            }
+
+            registers!(@compare $name, less, $less);
+            registers!(@compare $name, less_or_equal, $less_or_equal);
+
+            #[inline(always)]
+            fn lanes(self) -> [$scalar; LANES] {
+                let mut lanes = [0.0; LANES];
+                for (k, register) in self.0.into_iter().enumerate() {
+                    // SAFETY: lanes exist only where the processor has the instructions; every
+                    // register writes its own part of the array.
+                    unsafe { $store(lanes.as_mut_ptr().add(k * Self::WIDTH), register) };
+                }
+                lanes
+            }
+        }
+    };
+
+    (@operator $name:ident, $count:literal, $trait:ident, $method:ident, $intrinsic:ident) => {
+        impl $trait for $name {
+            type Output = $name;
+
+            registers!(@pairwise $name, $count, $method, $intrinsic);
+        }
+    };
+
+    (@pairwise $name:ident, $count:literal, $method:ident, $intrinsic:ident) => {
+        #[inline(always)]
+        fn $method(self, other: $name) -> $name {
+            let mut result = self.0;
+            for (result, other) in result.iter_mut().zip(other.0) {
+                // SAFETY: lanes exist only where the processor has the instructions.
+                *result = unsafe { $intrinsic(*result, other) };
+            }
+            $name(result)
+        }
+    };
+
+    (@compare $name:ident, $method:ident, $compare:ident) => {
+        #[inline(always)]
+        fn $method(self, other: $name) -> u8 {
+            let mut mask = 0;
+            for (k, (a, b)) in self.0.into_iter().zip(other.0).enumerate() {
+                // SAFETY: lanes exist only where the processor has the instructions.
+                mask |= unsafe { $compare(a, b) } << (k * Self::WIDTH);
+            }
+            mask
+        }
+    };
+}
+
+pub(crate) use registers;

@@ -1,0 +1,111 @@
+//! All instruction sets of the machine that runs the tests give the bits of plain arithmetic.
+
+use proptest::prelude::*;
+use radiosity_simd::{Float, InstructionSet, Kernel, LANES, Simd};
+
+/// All operations on two vectors: the bits of the numbers, and the masks.
+struct Everything<T>([T; LANES], [T; LANES]);
+
+macro_rules! everything {
+    ($scalar:ty, $load:ident, $splat:ident) => {
+        impl Kernel for Everything<$scalar> {
+            type Output = (Vec<[$scalar; LANES]>, [u8; 2]);
+
+            #[inline(always)]
+            fn run<S: Simd>(self, simd: S) -> Self::Output {
+                let (a, b) = (simd.$load(&self.0), simd.$load(&self.1));
+                let numbers = [a + b, a - b, a * b, a / b, -a, a.min(b), a.max(b)];
+                let mut results: Vec<_> = numbers.into_iter().map(Float::lanes).collect();
+                results.push(simd.$splat(self.0[3]).lanes());
+                (results, [a.less(b), a.less_or_equal(b)])
+            }
+        }
+
+        impl Everything<$scalar> {
+            fn expected(&self) -> (Vec<[$scalar; LANES]>, [u8; 2]) {
+                let each = |f: fn($scalar, $scalar) -> $scalar| {
+                    std::array::from_fn(|k| f(self.0[k], self.1[k]))
+                };
+                let mask = |f: fn($scalar, $scalar) -> bool| {
+                    let bit = |k: usize| u8::from(f(self.0[k], self.1[k])) << k;
+                    (0..LANES).map(bit).sum()
+                };
+                let numbers = vec![
+                    each(|a, b| a + b),
+                    each(|a, b| a - b),
+                    each(|a, b| a * b),
+                    each(|a, b| a / b),
+                    each(|a, _| -a),
+                    each(|a, b| if a < b { a } else { b }),
+                    each(|a, b| if a > b { a } else { b }),
+                    [self.0[3]; LANES],
+                ];
+                (numbers, [mask(|a, b| a < b), mask(|a, b| a <= b)])
+            }
+
+            fn check(a: [$scalar; LANES], b: [$scalar; LANES]) {
+                let expected = Everything(a, b).expected();
+                for set in InstructionSet::available() {
+                    let found = set.run(Everything(a, b));
+                    assert_eq!(found.1, expected.1, "{}", set.name());
+                    for (found, expected) in found.0.iter().zip(&expected.0) {
+                        for (found, expected) in found.iter().zip(expected) {
+                            // Only the payload and sign of NaN may differ.
+                            let same = found.to_bits() == expected.to_bits();
+                            let nan = found.is_nan() && expected.is_nan();
+                            assert!(same || nan, "{}: {found} {expected}", set.name());
+                        }
+                    }
+                }
+            }
+        }
+    };
+}
+
+everything!(f32, f32, splat_f32);
+everything!(f64, f64, splat_f64);
+
+fn lanes<T: std::fmt::Debug + Copy>(
+    number: impl Strategy<Value = T>,
+) -> impl Strategy<Value = [T; LANES]> {
+    proptest::collection::vec(number, LANES)
+        .prop_map(|numbers| std::array::from_fn(|lane| numbers[lane]))
+}
+
+proptest! {
+    #[test]
+    fn floats(a in lanes(proptest::num::f32::ANY), b in lanes(proptest::num::f32::ANY)) {
+        Everything::<f32>::check(a, b);
+    }
+
+    #[test]
+    fn doubles(a in lanes(proptest::num::f64::ANY), b in lanes(proptest::num::f64::ANY)) {
+        Everything::<f64>::check(a, b);
+    }
+}
+
+#[test]
+fn zeros_infinities_and_nan() {
+    let special = [
+        0.0,
+        -0.0,
+        1.0,
+        -1.0,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        f64::NAN,
+        5e-324,
+    ];
+    for shift in 0..LANES {
+        let other = std::array::from_fn(|k| special[(k + shift) % LANES]);
+        Everything::<f64>::check(special, other);
+        Everything::<f32>::check(special.map(|x| x as f32), other.map(|x| x as f32));
+    }
+}
+
+#[test]
+fn the_portable_set_is_always_there() {
+    let sets = InstructionSet::available();
+    assert_eq!(sets.last().unwrap().name(), "portable");
+    assert!(sets.contains(&InstructionSet::current()));
+}
