@@ -129,7 +129,7 @@ impl<'a> Estimation<'a> {
     }
 
     /// What may stand between a patch and another face; `None` if they cannot see each other.
-    fn sight(&self, i: usize, face_id: FaceId) -> Option<Sight> {
+    fn sight(&self, i: usize, face_id: FaceId) -> Option<Sight<'_>> {
         let (patch, face) = (&self.mesh.patches[i], &self.mesh.faces[face_id.index()]);
         face_each_other(patch, face).then(|| {
             self.occluders
@@ -142,15 +142,11 @@ impl<'a> Estimation<'a> {
         &self,
         i: usize,
         j: usize,
-        sight: &Sight,
+        sight: &Sight<'_>,
         monte_carlo: &mut Option<MonteCarlo>,
     ) -> f32 {
         let (patch_i, patch_j) = (&self.mesh.patches[i], &self.mesh.patches[j]);
-        let visible = |p: DVec3, q: DVec3| {
-            !self
-                .occluders
-                .blocked(sight, patch_i.face, p, patch_j.face, q)
-        };
+        let visible = |p: DVec3, q: DVec3| !sight.blocked(p, q);
         let exchange = match monte_carlo {
             None => all_pairs(
                 (&self.points[i], patch_i.normal),

@@ -42,9 +42,9 @@ impl Aabb {
         }
     }
 
-    /// Whether the closed boxes share a point.
-    pub fn overlaps(&self, other: &Aabb) -> bool {
-        self.min.cmple(other.max).all() && self.max.cmpge(other.min).all()
+    /// Whether the closed box holds a point.
+    pub fn contains(&self, point: DVec3) -> bool {
+        self.min.cmple(point).all() && self.max.cmpge(point).all()
     }
 
     /// The centre.

@@ -14,9 +14,11 @@
 //! This crate knows nothing of files, colours, light or names.
 
 mod bounds;
+mod build;
 mod bvh;
 mod camera;
 mod check;
+mod face_block;
 mod film;
 mod locate;
 mod mesh;
@@ -24,8 +26,10 @@ mod morton;
 mod occluders;
 mod polygon;
 mod polygon_mesh;
+mod queries;
 mod ray;
 mod shape;
+mod sight;
 mod slabs;
 mod subdivide;
 
@@ -36,9 +40,10 @@ pub use film::{Film, PixelFilter};
 pub use glam::{DVec2, DVec3};
 pub use locate::Location;
 pub use mesh::{Face, FaceId, Grid, Mesh, Patch, SurfaceId};
-pub use occluders::{Hit, Occluders, Sight};
+pub use occluders::{Hit, Occluders};
 pub use polygon::Polygon;
 pub use polygon_mesh::PolygonMesh;
 pub use ray::Ray;
 pub use shape::Shape;
+pub use sight::Sight;
 pub use subdivide::{Divisions, MAX_PATCHES, MeshError, Surface, count_patches, subdivide};

@@ -14,8 +14,9 @@ pub struct Ray {
     pub origin: DVec3,
     /// Where it goes; any non-zero length.
     pub direction: DVec3,
-    axes: [usize; 3],
-    shear: [f64; 2],
+    /// The axis of the largest component last.
+    pub(crate) axes: [usize; 3],
+    pub(crate) shear: [f64; 2],
 }
 
 /// Widens the exit of a slab so that rounding never makes a ray miss a box it touches: three

@@ -1,4 +1,4 @@
-//! Rays against pairs of boxes, in single precision and yet never missing a box.
+//! Rays against boxes, eight at a time, in single precision and yet never missing a box.
 //!
 //! Coordinates are taken relative to the centre of the scene, and a ray is first moved to where
 //! it enters the scene, so no number is larger than the scene. What rounding to `f32` can then
@@ -8,7 +8,8 @@
 
 use crate::bounds::Aabb;
 use crate::ray::Ray;
-use glam::{DVec3, Vec4, Vec4Swizzles};
+use glam::DVec3;
+use radiosity_simd::{Float, LANES, Simd};
 
 /// Of the scene's extent: the origin and the box each round by at most 2^-25 of it (coordinates
 /// reach half the extent); eight times that, to be safe.
@@ -17,93 +18,113 @@ const PADDING: f64 = 1.0 / (1 << 22) as f64;
 /// exit: 5e-7; doubled, to be safe.
 const RELATIVE_ERROR: f32 = 1e-6;
 
-/// Two boxes, by axis: `(min of 0, min of 1, max of 0, max of 1)`.
+/// Where a tree's boxes are in single precision.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct BoxPair {
-    axes: [Vec4; 3],
+pub(crate) struct Frame {
+    scene: Aabb,
+    center: DVec3,
+    padding: f64,
+}
+
+/// Eight boxes: the minima by axis, then the maxima.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
+pub(crate) struct Boxes {
+    sides: [[f32; LANES]; 6],
 }
 
 /// A ray for boxes: parameters count from where it enters the scene.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SlabRay {
-    origin: [Vec4; 3],
-    inverse_direction: [Vec4; 3],
+    origin: [f32; 3],
+    inverse_direction: [f32; 3],
+    /// The sides that the ray meets first, and last, by axis.
+    near: [usize; 3],
+    far: [usize; 3],
     start: f64,
 }
 
-impl BoxPair {
-    /// Boxes of nothing. A ray may be said to enter them; their children hold no items.
-    pub(crate) const EMPTY: BoxPair = BoxPair {
-        axes: [Vec4::new(
-            f32::INFINITY,
-            f32::INFINITY,
-            f32::NEG_INFINITY,
-            f32::NEG_INFINITY,
-        ); 3],
+impl Frame {
+    pub(crate) fn new(scene: Aabb) -> Frame {
+        Frame {
+            scene,
+            center: scene.center(),
+            padding: PADDING * scene.extent().max_element(),
+        }
+    }
+
+    /// Prepares a ray; `None` if it misses the scene within `from..=limit`.
+    #[inline]
+    pub(crate) fn ray(&self, ray: &Ray, from: f64, limit: f64) -> Option<SlabRay> {
+        let start = if self.scene.contains(ray.at(from)) {
+            from
+        } else {
+            ray.enters(&self.scene, from, limit)?
+        };
+        let inverse = ray.direction.as_vec3().map(finite_inverse).to_array();
+        let near: [usize; 3] = std::array::from_fn(|k| if inverse[k] < 0.0 { k + 3 } else { k });
+        Some(SlabRay {
+            origin: (ray.at(start) - self.center).as_vec3().to_array(),
+            inverse_direction: inverse,
+            near,
+            far: near.map(|side| (side + 3) % 6),
+            start,
+        })
+    }
+}
+
+impl Boxes {
+    /// Boxes of nothing: no ray enters them.
+    pub(crate) const EMPTY: Boxes = {
+        let (low, high) = ([f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]);
+        Boxes {
+            sides: [low, low, low, high, high, high],
+        }
     };
 
-    /// Boxes in a scene of the given centre and extent.
-    pub(crate) fn new(boxes: [Aabb; 2], center: DVec3, extent: DVec3) -> BoxPair {
-        let padding = PADDING * extent.max_element();
-        let [a, b] = boxes.map(|b| b.grown(padding));
-        let axis = |k: usize| {
-            let [low, high] = [[a.min, b.min], [a.max, b.max]]
-                .map(|sides| sides.map(|side| (side[k] - center[k]) as f32));
-            Vec4::new(low[0], low[1], high[0], high[1])
-        };
-        BoxPair {
-            axes: [axis(0), axis(1), axis(2)],
+    /// Puts a box in a lane, rounded outwards.
+    pub(crate) fn set(&mut self, lane: usize, bounds: Aabb, frame: &Frame) {
+        let bounds = bounds.grown(frame.padding);
+        for k in 0..3 {
+            self.sides[k][lane] = (bounds.min[k] - frame.center[k]) as f32;
+            self.sides[k + 3][lane] = (bounds.max[k] - frame.center[k]) as f32;
         }
     }
 
-    /// Where the ray enters each box, if it does so before `limit`.
-    pub(crate) fn enter(&self, ray: &SlabRay, limit: f32) -> [Option<f32>; 2] {
-        let mut entry = Vec4::ZERO;
-        let mut exit = Vec4::splat(limit);
+    /// Which boxes the ray enters before `limit`, one bit each, and where.
+    #[inline(always)]
+    pub(crate) fn enter<S: Simd>(&self, simd: S, ray: &SlabRay, limit: f32) -> (u8, [f32; LANES]) {
+        let mut entry = simd.splat_f32(0.0);
+        let mut exit = simd.splat_f32(limit);
         for k in 0..3 {
-            let t = (self.axes[k] - ray.origin[k]) * ray.inverse_direction[k];
-            let swapped = t.zwxy();
-            entry = entry.max(t.min(swapped));
-            exit = exit.min(t.max(swapped));
+            let origin = simd.splat_f32(ray.origin[k]);
+            let inverse = simd.splat_f32(ray.inverse_direction[k]);
+            let near = (simd.f32(&self.sides[ray.near[k]]) - origin) * inverse;
+            let far = (simd.f32(&self.sides[ray.far[k]]) - origin) * inverse;
+            entry = near.max(entry);
+            exit = far.min(exit);
         }
-        let exit = exit * (1.0 + RELATIVE_ERROR);
-        let hit = |entry: f32, exit: f32| (entry <= exit).then_some(entry);
-        [hit(entry.x, exit.x), hit(entry.y, exit.y)]
+        let exit = exit * simd.splat_f32(1.0 + RELATIVE_ERROR);
+        (entry.less_or_equal(exit), entry.lanes())
     }
 
-    /// Which boxes share a point with their counterpart.
-    pub(crate) fn overlap(&self, other: &BoxPair) -> [bool; 2] {
-        let mut gap = Vec4::NEG_INFINITY;
+    /// Which boxes share a point with the first box of `region`, one bit each.
+    #[inline(always)]
+    pub(crate) fn overlap<S: Simd>(&self, simd: S, region: &Boxes) -> u8 {
+        let mut mask = u8::MAX;
         for k in 0..3 {
-            // Minimum over the other's maximum, or maximum under the other's minimum.
-            let distance = self.axes[k] - other.axes[k].zwxy();
-            gap = gap.max(distance * Vec4::new(1.0, 1.0, -1.0, -1.0));
+            let low = simd.splat_f32(region.sides[k][0]);
+            let high = simd.splat_f32(region.sides[k + 3][0]);
+            mask &= simd.f32(&self.sides[k]).less_or_equal(high);
+            mask &= low.less_or_equal(simd.f32(&self.sides[k + 3]));
         }
-        [gap.x.max(gap.z) <= 0.0, gap.y.max(gap.w) <= 0.0]
+        mask
     }
 }
 
 impl SlabRay {
-    /// Prepares a ray; `None` if it misses the scene's box within `from..=limit`.
-    pub(crate) fn new(
-        ray: &Ray,
-        scene: &Aabb,
-        center: DVec3,
-        from: f64,
-        limit: f64,
-    ) -> Option<SlabRay> {
-        let start = ray.enters(scene, from, limit)?;
-        let origin = (ray.at(start) - center).as_vec3();
-        let inverse = ray.direction.as_vec3().map(finite_inverse);
-        let splat = |v: glam::Vec3| [v.x, v.y, v.z].map(Vec4::splat);
-        Some(SlabRay {
-            origin: splat(origin),
-            inverse_direction: splat(inverse),
-            start,
-        })
-    }
-
     /// A parameter of the ray as boxes count it, rounded up.
+    #[inline]
     pub(crate) fn parameter(&self, t: f64) -> f32 {
         (t - self.start).max(0.0) as f32 * (1.0 + RELATIVE_ERROR)
     }

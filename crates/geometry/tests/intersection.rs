@@ -3,7 +3,7 @@
 mod shapes;
 
 use proptest::prelude::*;
-use radiosity_geometry::{DVec3, FaceId, Mesh, Occluders, Ray, Shape, Sight};
+use radiosity_geometry::{DVec3, FaceId, Mesh, Occluders, Ray, Shape};
 use shapes::{icosphere, mesh_of, parallelogram, surfaces_of};
 
 fn hit(mesh: &Mesh, origin: [f64; 3], direction: [f64; 3]) -> Option<(f64, bool)> {
@@ -180,7 +180,7 @@ fn a_mesh_shadows_itself_but_its_ends_do_not() {
         let (i, j) = (at(from), at(to));
         let [a, b] = [i, j].map(|f| &mesh.faces[f.index()].polygon);
         let sight = occluders.sight(i, a, j, b);
-        occluders.blocked(&sight, i, a.centroid(), j, b.centroid())
+        sight.blocked(a.centroid(), b.centroid())
     };
     assert!(blocked(0.0, 2.0));
     assert!(!blocked(0.0, 1.0));
@@ -278,8 +278,8 @@ proptest! {
                 continue;
             }
             let sight = occluders.sight(i_id, &mesh.faces[0].polygon, j_id, &mesh.faces[j].polygon);
-            let expected = occluders.blocked(&Sight::UNKNOWN, i_id, p, j_id, q);
-            prop_assert_eq!(occluders.blocked(&sight, i_id, p, j_id, q), expected);
+            let expected = occluders.blocked(i_id, p, j_id, q);
+            prop_assert_eq!(sight.blocked(p, q), expected);
             let ray = Ray::new(p, q - p);
             let others = (1..mesh.faces.len()).filter(|&f| f != j);
             let brute = others.clone().any(|f| {

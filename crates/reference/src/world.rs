@@ -63,7 +63,6 @@ impl World {
 
     /// Whether nothing stands between two points on faces.
     pub(crate) fn sees(&self, from: (FaceId, DVec3), to: (FaceId, DVec3)) -> bool {
-        let unknown = radiosity_geometry::Sight::UNKNOWN;
-        !self.occluders.blocked(&unknown, from.0, from.1, to.0, to.1)
+        !self.occluders.blocked(from.0, from.1, to.0, to.1)
     }
 }

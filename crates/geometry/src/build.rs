@@ -1,0 +1,168 @@
+//! Builds a [`Bvh`]: binned surface area heuristic (Wald, "On fast Construction of SAH-based
+//! Bounding Volume Hierarchies", 2007), the largest parts split until a node has eight children.
+
+use crate::bounds::Aabb;
+use crate::bvh::{Bvh, Child, Node};
+use crate::slabs::{Boxes, Frame};
+use arrayvec::ArrayVec;
+use glam::DVec3;
+use radiosity_simd::LANES;
+use std::ops::Range;
+
+const BINS: usize = 16;
+/// After this many splits above them parts are split at the median, which bounds the depth.
+const SAH_DEPTH: usize = 48;
+/// No node is deeper than this.
+pub(crate) const MAX_DEPTH: usize = SAH_DEPTH + 32;
+
+struct Builder<'a> {
+    boxes: &'a [Aabb],
+    /// The items, of which every part is a range.
+    items: Vec<u32>,
+    tree: Bvh,
+    leaves: Vec<Vec<u32>>,
+}
+
+/// Items that will share a node or a leaf.
+struct Part {
+    range: Range<usize>,
+    bounds: Aabb,
+    /// Number of splits above it.
+    depth: usize,
+}
+
+/// The tree over some boxes, and the items of each leaf.
+pub(crate) fn build(boxes: &[Aabb]) -> (Bvh, Vec<Vec<u32>>) {
+    let whole = boxes.iter().fold(Aabb::EMPTY, |sum, &b| sum.union(b));
+    let nowhere = Aabb::around([DVec3::ZERO]);
+    let mut builder = Builder {
+        boxes,
+        items: (0..boxes.len() as u32).collect(),
+        tree: Bvh {
+            nodes: Vec::new(),
+            leaves: Vec::new(),
+            frame: Frame::new(if boxes.is_empty() { nowhere } else { whole }),
+        },
+        leaves: Vec::new(),
+    };
+    if boxes.is_empty() {
+        builder.tree.nodes.push(Node::EMPTY);
+    } else {
+        builder.add_node(builder.part(0..boxes.len(), 0));
+    }
+    (builder.tree, builder.leaves)
+}
+
+impl Builder<'_> {
+    fn part(&self, range: Range<usize>, depth: usize) -> Part {
+        let items = self.items[range.clone()].iter();
+        let bounds = items.fold(Aabb::EMPTY, |sum, &item| {
+            sum.union(self.boxes[item as usize])
+        });
+        Part {
+            range,
+            bounds,
+            depth,
+        }
+    }
+
+    fn add_node(&mut self, whole: Part) -> Child {
+        let index = self.tree.nodes.len();
+        self.tree.nodes.push(Node::EMPTY);
+        for (lane, part) in self.divide(whole).into_iter().enumerate() {
+            let bounds = part.bounds;
+            let child = if part.range.len() <= LANES {
+                self.add_leaf(part.range)
+            } else {
+                self.add_node(part)
+            };
+            let node = &mut self.tree.nodes[index];
+            node.boxes.set(lane, bounds, &self.tree.frame);
+            node.children[lane] = child;
+        }
+        Child::to_node(index)
+    }
+
+    fn add_leaf(&mut self, range: Range<usize>) -> Child {
+        let items = self.items[range].to_vec();
+        let mut boxes = Boxes::EMPTY;
+        for (lane, &item) in items.iter().enumerate() {
+            boxes.set(lane, self.boxes[item as usize], &self.tree.frame);
+        }
+        self.tree.leaves.push(boxes);
+        self.leaves.push(items);
+        Child::to_leaf(self.leaves.len() - 1)
+    }
+
+    /// Splits the part of largest surface that is no leaf yet, until there are eight.
+    fn divide(&mut self, whole: Part) -> ArrayVec<Part, LANES> {
+        let mut parts = ArrayVec::from_iter([whole]);
+        while parts.len() < LANES {
+            let divisible = (0..parts.len()).filter(|&k| parts[k].range.len() > LANES);
+            let area = |&k: &usize| parts[k].bounds.half_area();
+            let Some(largest) = divisible.max_by(|a, b| area(a).total_cmp(&area(b))) else {
+                break;
+            };
+            let Part { range, depth, .. } = parts.swap_remove(largest);
+            let middle = range.start + self.partition(range.clone(), depth);
+            parts.push(self.part(range.start..middle, depth + 1));
+            parts.push(self.part(middle..range.end, depth + 1));
+        }
+        parts
+    }
+
+    /// Reorders the items of a range so that the first `n` of them go left, and returns `n`.
+    fn partition(&mut self, range: Range<usize>, depth: usize) -> usize {
+        let boxes = self.boxes;
+        let items = &mut self.items[range];
+        let center = |item: u32| boxes[item as usize].center();
+        let centers = Aabb::around(items.iter().map(|&item| center(item)));
+        let extent = centers.extent().to_array();
+        let axis = (0..3).fold(0, |a, b| if extent[b] > extent[a] { b } else { a });
+        if depth < SAH_DEPTH
+            && extent[axis] > 0.0
+            && let Some(bin) = best_bin(boxes, items, &centers, axis)
+        {
+            return stable_partition(items, |item| {
+                bin_of(center(item)[axis], &centers, axis) <= bin
+            });
+        }
+        items.sort_by(|&a, &b| center(a)[axis].total_cmp(&center(b)[axis]));
+        items.len().div_ceil(2)
+    }
+}
+
+fn bin_of(center: f64, centers: &Aabb, axis: usize) -> usize {
+    let position = (center - centers.min[axis]) / (centers.max[axis] - centers.min[axis]);
+    ((position * BINS as f64) as usize).min(BINS - 1)
+}
+
+/// The last bin that goes left in the cheapest split, if any split leaves both sides filled.
+fn best_bin(boxes: &[Aabb], items: &[u32], centers: &Aabb, axis: usize) -> Option<usize> {
+    let mut bins = [(Aabb::EMPTY, 0usize); BINS];
+    for &item in items {
+        let bounds = boxes[item as usize];
+        let bin = &mut bins[bin_of(bounds.center()[axis], centers, axis)];
+        *bin = (bin.0.union(bounds), bin.1 + 1);
+    }
+    let add = |sum: &mut (Aabb, usize), bin: &(Aabb, usize)| {
+        *sum = (sum.0.union(bin.0), sum.1 + bin.1);
+        Some(*sum)
+    };
+    let left: Vec<_> = bins.iter().scan((Aabb::EMPTY, 0), add).collect();
+    let mut right: Vec<_> = bins.iter().rev().scan((Aabb::EMPTY, 0), add).collect();
+    right.reverse();
+    let cost = |(bounds, count): (Aabb, usize)| bounds.half_area() * count as f64;
+    (0..BINS - 1)
+        .filter(|&bin| left[bin].1 > 0 && right[bin + 1].1 > 0)
+        .map(|bin| (cost(left[bin]) + cost(right[bin + 1]), bin))
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, bin)| bin)
+}
+
+fn stable_partition(items: &mut [u32], goes_left: impl Fn(u32) -> bool) -> usize {
+    let (left, right): (Vec<u32>, Vec<u32>) = items.iter().partition(|&&item| goes_left(item));
+    items[..left.len()].copy_from_slice(&left);
+    items[left.len()..].copy_from_slice(&right);
+    left.len()
+}
