@@ -2,7 +2,7 @@
 //! Bounding Volume Hierarchies", 2007), the largest parts split until a node has eight children.
 
 use crate::bounds::Aabb;
-use crate::bvh::{Bvh, Child, Node};
+use crate::bvh::{Bvh, Child, FEW_LEAVES, Node};
 use crate::slabs::{Boxes, Frame};
 use arrayvec::ArrayVec;
 use glam::DVec3;
@@ -69,7 +69,12 @@ impl Builder<'_> {
     fn add_node(&mut self, whole: Part) -> Child {
         let index = self.tree.nodes.len();
         self.tree.nodes.push(Node::EMPTY);
-        for (lane, part) in self.divide(whole).into_iter().enumerate() {
+        let parts = if self.items.len() <= FEW_LEAVES * LANES {
+            self.full_leaves()
+        } else {
+            self.divide(whole)
+        };
+        for (lane, part) in parts.into_iter().enumerate() {
             let bounds = part.bounds;
             let child = if part.range.len() <= LANES {
                 self.add_leaf(part.range)
@@ -92,6 +97,15 @@ impl Builder<'_> {
         self.tree.leaves.push(boxes);
         self.leaves.push(items);
         Child::to_leaf(self.leaves.len() - 1)
+    }
+
+    /// All items, eight to a part.
+    fn full_leaves(&self) -> ArrayVec<Part, LANES> {
+        let count = self.items.len();
+        let firsts = (0..count).step_by(LANES);
+        firsts
+            .map(|first| self.part(first..count.min(first + LANES), 1))
+            .collect()
     }
 
     /// Splits the part of largest surface that is no leaf yet, until there are eight.
@@ -117,16 +131,15 @@ impl Builder<'_> {
         let items = &mut self.items[range];
         let center = |item: u32| boxes[item as usize].center();
         let centers = Aabb::around(items.iter().map(|&item| center(item)));
-        let extent = centers.extent().to_array();
-        let axis = (0..3).fold(0, |a, b| if extent[b] > extent[a] { b } else { a });
         if depth < SAH_DEPTH
-            && extent[axis] > 0.0
-            && let Some(bin) = best_bin(boxes, items, &centers, axis)
+            && let Some((axis, bin)) = best_bin(boxes, items, &centers)
         {
             return stable_partition(items, |item| {
                 bin_of(center(item)[axis], &centers, axis) <= bin
             });
         }
+        let extent = centers.extent().to_array();
+        let axis = (0..3).fold(0, |a, b| if extent[b] > extent[a] { b } else { a });
         items.sort_by(|&a, &b| center(a)[axis].total_cmp(&center(b)[axis]));
         items.len().div_ceil(2)
     }
@@ -137,8 +150,18 @@ fn bin_of(center: f64, centers: &Aabb, axis: usize) -> usize {
     ((position * BINS as f64) as usize).min(BINS - 1)
 }
 
-/// The last bin that goes left in the cheapest split, if any split leaves both sides filled.
-fn best_bin(boxes: &[Aabb], items: &[u32], centers: &Aabb, axis: usize) -> Option<usize> {
+/// The axis and the last bin that goes left in the cheapest split, if any split leaves both sides
+/// filled.
+fn best_bin(boxes: &[Aabb], items: &[u32], centers: &Aabb) -> Option<(usize, usize)> {
+    let extent = centers.extent();
+    let axes = (0..3).filter(|&axis| extent[axis] > 0.0);
+    let splits = axes.flat_map(|axis| splits(boxes, items, centers, axis));
+    let best = splits.min_by(|a, b| a.0.total_cmp(&b.0));
+    best.map(|(_, axis, bin)| (axis, bin))
+}
+
+/// The cost, axis and bin of all splits along an axis.
+fn splits(boxes: &[Aabb], items: &[u32], centers: &Aabb, axis: usize) -> Vec<(f64, usize, usize)> {
     let mut bins = [(Aabb::EMPTY, 0usize); BINS];
     for &item in items {
         let bounds = boxes[item as usize];
@@ -152,12 +175,11 @@ fn best_bin(boxes: &[Aabb], items: &[u32], centers: &Aabb, axis: usize) -> Optio
     let left: Vec<_> = bins.iter().scan((Aabb::EMPTY, 0), add).collect();
     let mut right: Vec<_> = bins.iter().rev().scan((Aabb::EMPTY, 0), add).collect();
     right.reverse();
-    let cost = |(bounds, count): (Aabb, usize)| bounds.half_area() * count as f64;
+    let cost = |(bounds, count): (Aabb, usize)| bounds.half_area() * count.div_ceil(LANES) as f64;
     (0..BINS - 1)
         .filter(|&bin| left[bin].1 > 0 && right[bin + 1].1 > 0)
-        .map(|bin| (cost(left[bin]) + cost(right[bin + 1]), bin))
-        .min_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, bin)| bin)
+        .map(|bin| (cost(left[bin]) + cost(right[bin + 1]), axis, bin))
+        .collect()
 }
 
 fn stable_partition(items: &mut [u32], goes_left: impl Fn(u32) -> bool) -> usize {

@@ -37,6 +37,9 @@ pub(crate) struct Blocked<'a> {
     found: bool,
 }
 
+#[cfg(test)]
+mod tests;
+
 /// The index of no face.
 const NONE: u32 = u32::MAX;
 

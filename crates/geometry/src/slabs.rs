@@ -8,7 +8,7 @@
 
 use crate::bounds::Aabb;
 use crate::ray::Ray;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use radiosity_simd::{Float, LANES, Simd};
 
 /// Of the scene's extent: the origin and the box each round by at most 2^-25 of it (coordinates
@@ -54,17 +54,18 @@ impl Frame {
     }
 
     /// Prepares a ray; `None` if it misses the scene within `from..=limit`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn ray(&self, ray: &Ray, from: f64, limit: f64) -> Option<SlabRay> {
-        let start = if self.scene.contains(ray.at(from)) {
-            from
-        } else {
-            ray.enters(&self.scene, from, limit)?
-        };
-        let inverse = ray.direction.as_vec3().map(finite_inverse).to_array();
+        let mut start = from;
+        let mut entry = ray.at(from);
+        if !self.scene.contains(entry) {
+            start = ray.enters(&self.scene, from, limit)?;
+            entry = ray.at(start);
+        }
+        let inverse = inverse(ray.direction.as_vec3()).to_array();
         let near: [usize; 3] = std::array::from_fn(|k| if inverse[k] < 0.0 { k + 3 } else { k });
         Some(SlabRay {
-            origin: (ray.at(start) - self.center).as_vec3().to_array(),
+            origin: (entry - self.center).as_vec3().to_array(),
             inverse_direction: inverse,
             near,
             far: near.map(|side| (side + 3) % 6),
@@ -130,12 +131,11 @@ impl SlabRay {
     }
 }
 
-/// `1 / x`, kept finite so that a slab test never multiplies zero by infinity.
-fn finite_inverse(x: f32) -> f32 {
+/// `1 / d`, kept finite so that a slab test never multiplies zero by infinity.
+#[inline(always)]
+fn inverse(d: Vec3) -> Vec3 {
     const LARGEST: f32 = 1e30;
-    if x.abs() < 1.0 / LARGEST {
-        LARGEST.copysign(x)
-    } else {
-        1.0 / x
-    }
+    // Four lanes divide at once.
+    let inverse = d.extend(1.0).recip().truncate();
+    inverse.clamp(Vec3::splat(-LARGEST), Vec3::splat(LARGEST))
 }

@@ -1,0 +1,119 @@
+//! Every instruction set of this machine finds, to the bit, what the scalar test finds by trying
+//! all faces.
+
+use super::*;
+use crate::occluders::{Occluder, ordered};
+use crate::{Divisions, Mesh, PolygonMesh, Shape, Surface, subdivide};
+use proptest::prelude::*;
+use radiosity_simd::InstructionSet;
+
+/// Corners on a coarse lattice, so that rays graze edges, meet corners and tie.
+fn lattice_point() -> impl Strategy<Value = DVec3> {
+    (0..5, 0..5, 0..5).prop_map(|(x, y, z)| DVec3::new(f64::from(x), f64::from(y), f64::from(z)))
+}
+
+fn any_point() -> impl Strategy<Value = DVec3> {
+    (-1.0..5.0, -1.0..5.0, -1.0..5.0).prop_map(|(x, y, z)| DVec3::new(x, y, z))
+}
+
+/// Triangles and, where the last corner of a parallelogram completes them, quads.
+fn mesh() -> impl Strategy<Value = Mesh> {
+    let face = (
+        lattice_point(),
+        lattice_point(),
+        lattice_point(),
+        any::<bool>(),
+    );
+    proptest::collection::vec(face, 1..120).prop_filter_map("no face", |faces| {
+        let mut mesh = PolygonMesh {
+            positions: Vec::new(),
+            faces: Vec::new(),
+        };
+        for (a, b, c, quad) in faces {
+            if (b - a).cross(c - a) == DVec3::ZERO {
+                continue;
+            }
+            let first = mesh.positions.len() as u32;
+            let fourth = quad.then_some(a + c - b);
+            mesh.positions.extend([a, b, c].into_iter().chain(fourth));
+            mesh.faces
+                .push((first..mesh.positions.len() as u32).collect());
+        }
+        let surface = Surface {
+            shape: Shape::Mesh(mesh),
+            divisions: None,
+        };
+        subdivide(&[surface], Divisions::uniform(1)).ok()
+    })
+}
+
+/// A line within a face's plane does not meet it, but if rounding tilts either, it may seem to,
+/// anywhere: only boxes then keep it near the face.
+fn only_rounding_tilts(face: &Occluder, ray: &Ray) -> bool {
+    let approach = face.normal.dot(ray.direction).abs();
+    approach > 0.0 && approach < 1e-9 * ray.direction.length()
+}
+
+fn scalar_hits(occluders: &Occluders, ray: &Ray, except: Option<FaceId>) -> Vec<Hit> {
+    let hit = |(index, face): (usize, &Occluder)| {
+        let approach = face.normal.dot(ray.direction);
+        let hit = Hit {
+            t: -face.height(ray.origin) / approach,
+            face: FaceId(index as u32),
+            front: approach < 0.0,
+        };
+        let counts = hit.t >= 0.0 && Some(hit.face) != except && ray.pierces(&face.corners);
+        counts.then_some(hit)
+    };
+    occluders.faces.iter().enumerate().filter_map(hit).collect()
+}
+
+fn check_ray(occluders: &Occluders, ray: &Ray, except: Option<FaceId>) {
+    let hits = scalar_hits(occluders, ray, except);
+    // Zeros are equal whatever their sign; the first of equals wins.
+    let nearer = |best: Hit, hit: &Hit| if hit.t < best.t { *hit } else { best };
+    let closest = hits.first().map(|&first| hits.iter().fold(first, nearer));
+    for set in InstructionSet::available() {
+        let to = f64::INFINITY;
+        let found = set.run(ClosestHit::new(occluders, ray, 0.0, to, except));
+        assert_eq!(found, closest, "{}", set.name());
+        let any = set.run(AnyHit::new(occluders, ray, 0.0, to, except));
+        assert_eq!(any, closest.is_some(), "{}", set.name());
+    }
+}
+
+fn check_segment(occluders: &Occluders, ends: [DVec3; 2], except: [FaceId; 2]) {
+    let [p, q] = ordered(ends[0], ends[1]);
+    let tolerance = occluders.plane_tolerance;
+    let faces = occluders.faces.iter().enumerate();
+    let mut others = faces.filter(|(index, _)| !except.contains(&FaceId(*index as u32)));
+    let blocked = others.any(|(_, face)| face.cuts(p, q, tolerance));
+    for set in InstructionSet::available() {
+        let found = set.run(Blocked::new(occluders, except, [p, q]));
+        assert_eq!(found, blocked, "{}", set.name());
+    }
+}
+
+proptest! {
+    #[test]
+    fn all_instruction_sets_agree_with_the_scalar_test(
+        mesh in mesh(),
+        lattice in proptest::collection::vec((lattice_point(), lattice_point()), 8),
+        random in proptest::collection::vec((any_point(), any_point()), 8),
+    ) {
+        let occluders = Occluders::new(&mesh);
+        let last = FaceId(mesh.faces.len() as u32 - 1);
+        for (p, q) in lattice.into_iter().chain(random) {
+            if p == q {
+                continue;
+            }
+            let ray = Ray::new(p, q - p);
+            if occluders.faces.iter().any(|face| only_rounding_tilts(face, &ray)) {
+                continue;
+            }
+            check_ray(&occluders, &ray, None);
+            check_ray(&occluders, &ray, Some(last));
+            check_segment(&occluders, [p, q], [FaceId(0), last]);
+        }
+    }
+}
