@@ -6,10 +6,10 @@
 //! touch the surface, where `1 / r^2` is unbounded, the other.
 
 use crate::Rgb;
-use crate::world::World;
+use crate::world::{FaceLight, World};
 use radiosity_geometry::{DVec3, FaceId, Ray};
 use rand::{Rng, RngExt};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// Walks this long go on by chance only.
 const SURE_BOUNCES: u32 = 3;
@@ -35,22 +35,29 @@ pub(crate) fn walk(world: &World, start: (FaceId, DVec3), rng: &mut impl Rng) ->
         let light = world.face(face);
         throughput = multiply(throughput, light.reflectance);
         let survival = survival(&throughput, bounce);
-        if survival == 0.0 || rng.random::<f64>() >= survival {
-            break;
+        if survival < 1.0 {
+            if rng.random::<f64>() >= survival {
+                break;
+            }
+            throughput = throughput.map(|t| t / survival);
         }
-        throughput = throughput.map(|t| t / survival);
         let direct = direct_irradiance(world, face, point, rng);
         add(&mut result, multiply(throughput, direct));
 
-        let ray = Ray::new(point, cosine_direction(light.normal, rng));
+        let ray = Ray::new(point, cosine_direction(light, rng));
         let Some((next, at)) = world.next_front(face, &ray) else {
             break;
         };
-        // With directions drawn in proportion to the cosine, the mean of pi L is the
-        // irradiance, and pi L of a diffuse emitter is its exitance.
-        let weight = direction_weight(world, light.normal, point, next, at);
-        let emission = world.face(next).emission.map(|e| weight * e);
-        add(&mut result, multiply(throughput, emission));
+        let emission = world.face(next).emission;
+        if emission != [0.0; 3] {
+            // With directions drawn in proportion to the cosine, the mean of pi L is the
+            // irradiance, and pi L of a diffuse emitter is its exitance.
+            let weight = direction_weight(world, light.normal, point, next, at);
+            add(
+                &mut result,
+                multiply(throughput, emission.map(|e| weight * e)),
+            );
+        }
         (face, point) = (next, at);
         vertices += 1;
     }
@@ -103,13 +110,18 @@ fn exchange(normal: DVec3, point: DVec3, other_normal: DVec3, other: DVec3) -> O
         .then(|| height_there * height_here / (PI * squared * squared))
 }
 
-/// A direction around a normal with density `cos / pi` (Malley's method).
-fn cosine_direction(normal: DVec3, rng: &mut impl Rng) -> DVec3 {
-    let (u, v): (f64, f64) = (rng.random(), rng.random());
-    let (sin, cos) = (TAU * v).sin_cos();
-    let radius = u.sqrt();
-    let (tangent, bitangent) = normal.any_orthonormal_pair();
-    radius * (cos * tangent + sin * bitangent) + (1.0 - u).sqrt() * normal
+/// A direction in front of a face with density `cos / pi`: a uniform point of the unit disk, raised
+/// to the hemisphere (Malley's method). Points of a square outside of the disk are rejected.
+fn cosine_direction(face: &FaceLight, rng: &mut impl Rng) -> DVec3 {
+    loop {
+        let x = 2.0 * rng.random::<f64>() - 1.0;
+        let y = 2.0 * rng.random::<f64>() - 1.0;
+        let squared = x * x + y * y;
+        if squared < 1.0 {
+            let [tangent, bitangent] = face.tangents;
+            return x * tangent + y * bitangent + (1.0 - squared).sqrt() * face.normal;
+        }
+    }
 }
 
 fn multiply(a: Rgb, b: Rgb) -> Rgb {

@@ -14,9 +14,10 @@ pub(crate) struct Samples {
 impl Samples {
     pub(crate) fn add(&mut self, sample: Rgb) {
         self.count += 1.0;
+        let share = 1.0 / self.count;
         for (c, value) in sample.into_iter().enumerate() {
             let before = value - self.mean[c];
-            self.mean[c] += before / self.count;
+            self.mean[c] += before * share;
             self.squares[c] += before * (value - self.mean[c]);
         }
     }

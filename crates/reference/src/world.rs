@@ -12,10 +12,12 @@ pub(crate) struct World {
     pub(crate) emitters: Emitters,
 }
 
-/// A face's normal and material.
+/// A face's orientation and material.
 #[derive(Clone, Copy)]
 pub(crate) struct FaceLight {
     pub(crate) normal: DVec3,
+    /// Unit vectors at right angles to the normal and to each other.
+    pub(crate) tangents: [DVec3; 2],
     /// Radiant exitance, W/m^2.
     pub(crate) emission: Rgb,
     pub(crate) reflectance: Rgb,
@@ -27,6 +29,7 @@ impl World {
             let material = scene.material(face.surface, face.input_index);
             FaceLight {
                 normal: face.normal,
+                tangents: face.normal.any_orthonormal_pair().into(),
                 emission: material.emission,
                 reflectance: material.reflectance,
             }
