@@ -5,7 +5,7 @@ mod measure;
 mod reference;
 
 pub use measure::{picture_errors, radiosity_errors};
-pub use reference::{radiance, radiosity_table, regions};
+pub use reference::{radiance, reference_table, regions};
 
 use radiosity::scene::{Scene, load};
 use radiosity::solver::Solution;

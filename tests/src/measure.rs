@@ -1,30 +1,21 @@
 //! The measures of error that the reference data defines, on results that were never written.
 
-use crate::reference::{radiance, radiosity_table, regions};
-use radiosity::compare::{Errors, Row, Table, compare_pictures, compare_tables};
+use crate::reference::{radiance, reference_table, regions};
+use radiosity::compare::{Errors, compare_pictures, compare_tables};
+use radiosity::geometry::PixelFilter;
 use radiosity::renderer::Image;
 use radiosity::scene::Scene;
 use radiosity::solver::Solution;
-use radiosity::{Pipeline, cells};
+use radiosity::{Pipeline, cells, radiosity_table};
 
 /// The exposure at which the course shows its picture.
 const EXPOSURE: f64 = 4.0;
 
 /// The errors of radiosities of 12 x 12 patches against the table.
 pub fn radiosity_errors(scene: &Scene, pipeline: &Pipeline<'_>, solution: &Solution) -> Errors {
-    let patches = pipeline.mesh().patches.iter().zip(&solution.radiosity);
-    let rows = patches.enumerate().map(|(index, (patch, radiosity))| Row {
-        line: 0,
-        surface: pipeline.surface_name(index).to_owned(),
-        cell: patch.cell,
-        radiosity: radiosity.map(f64::from),
-        standard_error: [0.0; 3],
-    });
-    let found = Table {
-        rows: rows.collect(),
-    };
+    let found = radiosity_table(scene, pipeline.mesh(), solution);
     let cells = cells(scene, pipeline.mesh());
-    let errors = compare_tables(&cells, &found, &radiosity_table());
+    let errors = compare_tables(&cells, &found, &reference_table(12));
     let errors = errors.unwrap_or_else(|error| panic!("{error}"));
     errors[errors.len() - 1].1
 }
@@ -32,7 +23,12 @@ pub fn radiosity_errors(scene: &Scene, pipeline: &Pipeline<'_>, solution: &Solut
 /// The errors of a picture against the reference, over one region or a run of them: `"0-2"` is
 /// away from edges.
 pub fn picture_errors(found: &Image, region: &str) -> Errors {
-    let errors = compare_pictures(found, &radiance(), Some(&regions()), EXPOSURE);
+    let errors = compare_pictures(
+        found,
+        &radiance(PixelFilter::Tents),
+        Some(&regions()),
+        EXPOSURE,
+    );
     let errors = errors.unwrap_or_else(|error| panic!("{error}"));
     let of_region = errors.iter().find(|(name, _)| name == region);
     of_region.expect("the map has this region").1

@@ -4,24 +4,28 @@ use crate::in_checkout;
 use radiosity::compare::{
     Decoded, Regions, Screen, Table, decode_picture, decode_regions, parse_table,
 };
+use radiosity::geometry::PixelFilter;
 
 fn data(name: &str) -> Vec<u8> {
     std::fs::read(in_checkout(&format!("tests/data/{name}"))).expect("the data is there")
 }
 
-/// The path-traced radiosities of the 12 x 12 grids of `cornell.toml`.
-pub fn radiosity_table() -> Table {
-    parse_table(&data("cornell-radiosity-12x12.csv")).expect("the table is well-formed")
+/// The path-traced radiosities of the n x n grids of `cornell.toml`; n is 4, 12 or 24.
+pub fn reference_table(n: u32) -> Table {
+    parse_table(&data(&format!("cornell-radiosity-{n}x{n}.csv"))).expect("the table is well-formed")
 }
 
-/// The path-traced picture of `cornell.toml`, with the course's pixel filter.
-pub fn radiance() -> Decoded {
+/// The path-traced picture of `cornell.toml`.
+pub fn radiance(filter: PixelFilter) -> Decoded {
+    let name = match filter {
+        PixelFilter::Tents => "cornell-radiance-course-filter.exr",
+        PixelFilter::Box => "cornell-radiance-box.exr",
+    };
     let linear = Screen {
         exposure: 1.0,
         gamma: None,
     };
-    let bytes = data("cornell-radiance-course-filter.exr");
-    decode_picture(&bytes, &linear).expect("the picture is well-formed")
+    decode_picture(&data(name), &linear).expect("the picture is well-formed")
 }
 
 /// The region of each pixel of that picture.

@@ -9,6 +9,10 @@ pub struct Errors {
     pub rmse_percent: f64,
     /// Mean difference; positive where the values are larger than the reference.
     pub bias_percent: f64,
+    /// Root mean square standard error of the reference, if it tells: so much of the root mean
+    /// square difference is the reference's own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub noise_percent: Option<f64>,
     /// Absolute differences.
     pub percentiles: Percentiles,
     /// Over how many values, channels counted apart.
@@ -33,8 +37,19 @@ pub struct Percentiles {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Differences {
     reference: f64,
+    /// Weighted squares of the reference's standard errors.
+    noise: Option<f64>,
     /// Difference and weight of each value.
     differences: Vec<(f64, f64)>,
+}
+
+impl Errors {
+    /// The root mean square difference without the noise of the reference: zero, where that
+    /// explains it all.
+    pub fn rmse_percent_without_noise(&self) -> f64 {
+        let noise = self.noise_percent.unwrap_or(0.0);
+        (self.rmse_percent.powi(2) - noise.powi(2)).max(0.0).sqrt()
+    }
 }
 
 impl Differences {
@@ -43,8 +58,16 @@ impl Differences {
         self.differences.push((found - reference, weight));
     }
 
+    /// Tells the standard error of a reference that was added.
+    pub(crate) fn add_noise(&mut self, weight: f64, standard_error: f64) {
+        *self.noise.get_or_insert_default() += weight * standard_error.powi(2);
+    }
+
     pub(crate) fn append(&mut self, other: &Differences) {
         self.reference += other.reference;
+        if let Some(noise) = other.noise {
+            *self.noise.get_or_insert_default() += noise;
+        }
         self.differences.extend_from_slice(&other.differences);
     }
 
@@ -64,6 +87,7 @@ impl Differences {
         Some(Errors {
             rmse_percent: percent * mean_of(2).sqrt(),
             bias_percent: percent * mean_of(1),
+            noise_percent: self.noise.map(|sum| percent * (sum / weight).sqrt()),
             percentiles: self.percentiles(percent, weight),
             values: self.differences.len(),
         })
@@ -108,10 +132,20 @@ mod tests {
         let mut differences = Differences::default();
         differences.add(3.0, 1.0, 1.3);
         differences.add(1.0, 3.0, 2.4);
+        assert_eq!(differences.errors().unwrap().noise_percent, None);
+        differences.add_noise(3.0, 0.1);
+        differences.add_noise(1.0, 0.3);
         let errors = differences.errors().unwrap();
         let close = |found: f64, expected: f64| (found - expected).abs() < 1e-12 * expected;
         assert!(close(errors.rmse_percent, 100.0 * 0.1575_f64.sqrt() / 1.5));
         assert!(close(errors.bias_percent, 5.0));
+        let noise_squared = (3.0 * 0.01 + 0.09) / 4.0 / 1.5_f64.powi(2);
+        assert!(close(
+            errors.noise_percent.unwrap(),
+            100.0 * noise_squared.sqrt()
+        ));
+        let without = (0.1575 / 1.5_f64.powi(2) - noise_squared).sqrt();
+        assert!(close(errors.rmse_percent_without_noise(), 100.0 * without));
         assert!(close(errors.percentiles.p50, 20.0));
         assert!(close(errors.percentiles.p90, 40.0));
         assert!(close(errors.percentiles.max, 40.0));

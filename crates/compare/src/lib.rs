@@ -14,6 +14,7 @@ mod errors;
 mod pictures;
 mod portable;
 mod regions;
+mod table;
 mod tables;
 
 pub use decode::{DecodeError, Decoded, Screen, decode_picture};
@@ -21,4 +22,5 @@ pub use difference::{DifferencePicture, difference_picture};
 pub use errors::{Errors, Percentiles};
 pub use pictures::{PictureError, compare_pictures};
 pub use regions::{Regions, RegionsError, decode_regions};
-pub use tables::{Cell, Row, Table, TableError, compare_tables, parse_table};
+pub use table::{Row, Table, TableError, parse_table};
+pub use tables::{Cell, compare_tables};

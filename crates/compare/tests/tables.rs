@@ -79,7 +79,40 @@ fn tables_of_other_patches_are_refused() {
 fn standard_errors_are_read() {
     let text = "surface,ia,ib,B_r,B_g,B_b,se_r,se_g,se_b\nwall,3,4,1,2,3,0.1,0.2,0.3\n";
     let row = &parse_table(text.as_bytes()).unwrap().rows[0];
-    assert_eq!((row.cell, row.standard_error), ([3, 4], [0.1, 0.2, 0.3]));
+    assert_eq!(
+        (row.cell, row.standard_error),
+        ([3, 4], Some([0.1, 0.2, 0.3]))
+    );
+}
+
+#[test]
+fn tables_are_written_as_they_are_read() {
+    let with_errors = "surface,ia,ib,B_r,B_g,B_b,se_r,se_g,se_b\n\
+        \"floor, the large\",3,4,0.1,2,3e-20,1.23e-4,0.00e0,2.00e1\n";
+    for text in [with_errors, &format!("{HEADER}{REFERENCE}")] {
+        let written = parse_table(text.as_bytes()).unwrap().to_csv();
+        let again = parse_table(&written).unwrap().to_csv();
+        assert_eq!(written, again);
+        let expected = text.replace("3e-20", "0.00000000000000000003");
+        assert_eq!(String::from_utf8(written).unwrap(), expected);
+    }
+}
+
+/// The noise is that of the reference, whatever the table itself tells.
+#[test]
+fn the_noise_of_the_reference_is_told() {
+    let header = "surface,ia,ib,B_r,B_g,B_b,se_r,se_g,se_b\n";
+    let parse = |row: &str| parse_table(format!("{header}{row}\n").as_bytes()).unwrap();
+    let (found, reference) = (
+        parse("wall,0,0,2,2,2,9,9,9"),
+        parse("wall,0,0,1,2,3,0.1,0.2,0.1"),
+    );
+    let wall = [cell("wall", 0, 7.0, false)];
+    let errors = compare_tables(&wall, &found, &reference).unwrap()[0].1;
+    let noise = 50.0 * (0.06_f64 / 3.0).sqrt();
+    assert!((errors.noise_percent.unwrap() - noise).abs() < 1e-9);
+    let without = (errors.rmse_percent.powi(2) - noise.powi(2)).sqrt();
+    assert!((errors.rmse_percent_without_noise() - without).abs() < 1e-9);
 }
 
 #[test]

@@ -1,31 +1,25 @@
 //! Results as tables.
 
-use radiosity_compare::Cell;
+use radiosity_compare::{Cell, Row, Table};
 use radiosity_geometry::{Face, Mesh};
 use radiosity_reference::CellMean;
 use radiosity_scene::Scene;
 use radiosity_solver::Solution;
 
-/// The radiosities of all patches as CSV: `surface,ia,ib,B_r,B_g,B_b`, W/m^2.
+/// The radiosities of all patches.
 ///
-/// Rows are in input order. On surfaces of one face, `ia` and `ib` are the patch's cell
-/// ([`radiosity_geometry::Patch::cell`]); on meshes `ia` is the polygon of the mesh file, counted
-/// from 0, and `ib` the patch's position in it.
-pub fn radiosity_csv(scene: &Scene, mesh: &Mesh, solution: &Solution) -> Vec<u8> {
-    let values = |patch: usize| solution.radiosity[patch].map(|b| b.to_string()).to_vec();
-    table(scene, mesh, &["B_r", "B_g", "B_b"], values)
+/// Rows are in input order. On surfaces of one face, the cell is the patch's
+/// ([`radiosity_geometry::Patch::cell`]); on meshes it is the polygon of the mesh file, counted
+/// from 0, and the patch's position in it.
+pub fn radiosity_table(scene: &Scene, mesh: &Mesh, solution: &Solution) -> Table {
+    let radiosity = |patch: usize| solution.radiosity[patch].map(f64::from);
+    table(scene, mesh, |patch| (radiosity(patch), None))
 }
 
-/// Traced radiosities as CSV: the columns of [`radiosity_csv`] and the standard errors
-/// `se_r,se_g,se_b`.
-pub fn reference_csv(scene: &Scene, mesh: &Mesh, cells: &[CellMean]) -> Vec<u8> {
-    let columns = ["B_r", "B_g", "B_b", "se_r", "se_g", "se_b"];
-    table(scene, mesh, &columns, |patch| {
-        let cell = &cells[patch];
-        let means = cell.radiosity.map(|b| (b as f32).to_string());
-        let errors = cell.standard_error.map(|e| format!("{e:.2e}"));
-        [means, errors].concat()
-    })
+/// Traced radiosities, with their standard errors, in the rows of [`radiosity_table`].
+pub fn reference_table(scene: &Scene, mesh: &Mesh, cells: &[CellMean]) -> Table {
+    let mean = |patch: usize| (cells[patch].radiosity, Some(cells[patch].standard_error));
+    table(scene, mesh, mean)
 }
 
 /// The patches that the tables of a scene have, in their order.
@@ -43,24 +37,27 @@ pub fn cells(scene: &Scene, mesh: &Mesh) -> Vec<Cell> {
     input_order(scene, mesh).into_iter().map(cell).collect()
 }
 
+/// A row per patch; `values` are its radiosity and standard error.
 fn table(
     scene: &Scene,
     mesh: &Mesh,
-    columns: &[&str],
-    values: impl Fn(usize) -> Vec<String>,
-) -> Vec<u8> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let in_memory = "memory takes all bytes";
-    let header = ["surface", "ia", "ib"].iter().chain(columns);
-    writer.write_record(header).expect(in_memory);
-    for (patch, [ia, ib]) in input_order(scene, mesh) {
+    values: impl Fn(usize) -> ([f64; 3], Option<[f64; 3]>),
+) -> Table {
+    let row = |(position, (patch, cell)): (usize, (usize, [u32; 2]))| {
         let surface = mesh.patches[patch].surface.index();
-        let mut record = vec![scene.surfaces[surface].name.clone()];
-        record.extend([ia.to_string(), ib.to_string()]);
-        record.extend(values(patch));
-        writer.write_record(record).expect(in_memory);
+        let (radiosity, standard_error) = values(patch);
+        Row {
+            line: position as u64 + 2,
+            surface: scene.surfaces[surface].name.clone(),
+            cell,
+            radiosity,
+            standard_error,
+        }
+    };
+    let patches = input_order(scene, mesh).into_iter();
+    Table {
+        rows: patches.enumerate().map(row).collect(),
     }
-    writer.into_inner().expect(in_memory)
 }
 
 /// All patches with their two coordinates on the surface, in the order of the input.

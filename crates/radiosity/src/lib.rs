@@ -38,7 +38,7 @@ mod settings;
 
 pub use artifact::{How, Origin, Sources};
 pub use error::Error;
-pub use export::{cells, radiosity_csv, reference_csv};
+pub use export::{cells, radiosity_table, reference_table};
 pub use observer::{Observer, Silent, Stage};
 pub use pipeline::{FormFactorsMade, Pipeline, Solved};
 pub use rows::RowSummary;

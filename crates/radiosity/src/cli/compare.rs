@@ -144,11 +144,16 @@ fn print(named: &[(String, Errors)]) -> Result<(), Error> {
             bias_percent: bias,
             percentiles: p,
             values,
+            noise_percent: _,
         } = errors;
         say(&format!(
             "{name:<width$}{rmse:>10.3}{bias:>+10.3}{:>10.3}{:>11.3}{:>11.3}{:>11.3}{values:>10}",
             p.p50, p.p90, p.p99, p.max
         ))?;
     }
-    say("in percent of the mean of the reference")
+    let noise = named.last().and_then(|(_, all)| all.noise_percent);
+    let noise = noise.map_or_else(String::new, |noise| {
+        format!("; the reference's own noise is {noise:.3} %")
+    });
+    say(&format!("in percent of the mean of the reference{noise}"))
 }

@@ -5,7 +5,7 @@ use super::run::{make_folder, with_threads, write};
 use super::site::Site;
 use super::terminal::{Terminal, say};
 use crate::error::Error;
-use crate::export::reference_csv;
+use crate::export::reference_table;
 use crate::observer::{Observer, Stage};
 use crate::resources::{check_image, grouped};
 use radiosity_geometry::{Divisions, subdivide};
@@ -93,7 +93,7 @@ fn table(
     let cells = cell_means(scene, &mesh, args.spp, args.seed, &advance);
     terminal.end();
     let path = folder.join(format!("{}-reference.csv", scene.name));
-    write(&path, &reference_csv(scene, &mesh, &cells))?;
+    write(&path, &reference_table(scene, &mesh, &cells).to_csv())?;
     let seconds = start.elapsed().as_secs_f64();
     terminal.line(&format!(
         "{:<14}{} patches, {} walks each{seconds:>14.2} s",

@@ -11,7 +11,7 @@ use super::site::Site;
 use super::terminal::{Terminal, say};
 use crate::artifact::Sources;
 use crate::error::Error;
-use crate::export::radiosity_csv;
+use crate::export::radiosity_table;
 use crate::pipeline::Pipeline;
 use crate::report::{DisplayReport, Report, check_lines, needs_of};
 use radiosity_cache::{Store, replace_file};
@@ -78,7 +78,10 @@ fn solve(args: &SolveCommand, site: &Site) -> Result<(), Error> {
         let mut report = Report::new(&scene, pipeline.mesh(), &terminal);
         let solution = reported_solution(&pipeline, Sources::Computed, &mut report)?;
         if let Some(path) = &args.export {
-            write(path, &radiosity_csv(&scene, pipeline.mesh(), &solution))?;
+            write(
+                path,
+                &radiosity_table(&scene, pipeline.mesh(), &solution).to_csv(),
+            )?;
             report.output("export", path);
         }
         report.finish()
