@@ -1,7 +1,5 @@
 //! The whole chain against path-traced truth.
 
-use radiosity::renderer::Image;
-use radiosity_reference::Tracer;
 use radiosity_tests::{picture_errors, pipeline, radiosity_errors, shipped, solve};
 
 /// What the course program is known to reach on its scene, to a tenth of a point: RMSE 4.50 %
@@ -55,35 +53,4 @@ fn triangles_are_as_good_as_rectangles() {
     );
     assert!(smooth.rmse_percent < 5.9, "{smooth:?}");
     assert!(away_from_edges(&pictures.constant).rmse_percent > 8.0);
-}
-
-/// Two path tracers that share no line of code, ours and the one that made the reference data.
-/// Ours takes few samples, so single pixels are noisy, but noise averages out over a region: the
-/// mean over n pixels is known to RMSE / sqrt(n), channels being correlated. The reference itself
-/// may be 0.14 % off.
-#[test]
-fn the_oracle_agrees_with_the_reference_picture() {
-    let scene = shipped("cornell");
-    let camera = scene.camera.as_ref().unwrap();
-    let mut tracer = Tracer::new(&scene, camera, 1).unwrap();
-    tracer.pass(&|_| ());
-    let traced = tracer.picture();
-    let to_f32 = |pixel: &[f64; 3]| pixel.map(|channel| channel as f32);
-    let found = Image {
-        width: traced.width,
-        height: traced.height,
-        pixels: traced.radiance.iter().map(to_f32).collect(),
-    };
-    for region in ["0", "1", "2", "0-2"] {
-        let errors = picture_errors(&found, region);
-        let noise = errors.rmse_percent / (errors.values as f64 / 3.0).sqrt();
-        println!(
-            "oracle, region {region}: bias {:+.2} % +- {noise:.2} %",
-            errors.bias_percent
-        );
-        assert!(
-            errors.bias_percent.abs() < 4.0 * noise + 0.14,
-            "{region}: {errors:?}"
-        );
-    }
 }

@@ -1,9 +1,8 @@
-//! The oracle against closed forms and against radiosities traced by an independent program.
+//! The oracle against closed forms, and against itself.
 
 use radiosity_geometry::{Camera, DVec3, Divisions, Mesh, PixelFilter, subdivide};
 use radiosity_reference::{CellMean, Tracer, cell_means};
 use radiosity_scene::{Scene, load, parse};
-use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 fn in_checkout(path: &str) -> PathBuf {
@@ -64,55 +63,6 @@ fn one_emitter_and_one_receiver_give_the_form_factor() {
     assert!(deviations(&cells[0], [expected; 3])[0].abs() < 4.0);
     assert!(cells[0].standard_error[0] < 1e-3 * expected);
     assert_eq!(cells[1].radiosity, [1.0; 3]);
-}
-
-/// The table was made by another program, from 576 million paths.
-#[test]
-fn an_independent_program_agrees() {
-    let scene = load(&in_checkout("scenes/cornell.toml")).unwrap();
-    let mesh = cut(&scene, 12);
-    let found = means(&scene, &mesh, 1000, 7);
-    let path = in_checkout("tests/data/cornell-radiosity-12x12.csv");
-    let mut table = HashMap::new();
-    for row in csv::Reader::from_path(path).unwrap().records() {
-        let row = row.unwrap();
-        let number = |k: usize| row[k].parse::<f64>().unwrap();
-        let key = (row[0].to_owned(), number(1) as u32, number(2) as u32);
-        table.insert(key, std::array::from_fn::<f64, 6, _>(|k| number(3 + k)));
-    }
-    let (mut chi_square, mut count) = (0.0, 0.0);
-    let (mut sum, mut expected_sum, mut variance) = (0.0, 0.0, 0.0);
-    for (patch, cell) in mesh.patches.iter().zip(&found) {
-        let name = scene.surfaces[patch.surface.index()].name.clone();
-        if ["light", "front", "cuboid-back"].contains(&name.as_str()) {
-            continue;
-        }
-        let reference = table[&(name, patch.cell[0], patch.cell[1])];
-        for c in 0..3 {
-            let error = cell.standard_error[c].hypot(reference[3 + c]);
-            let difference = cell.radiosity[c] - reference[c];
-            if error > 0.0 {
-                chi_square += (difference / error).powi(2);
-                count += 1.0;
-            }
-            sum += patch.area * cell.radiosity[c];
-            expected_sum += patch.area * reference[c];
-            variance += (patch.area * error).powi(2);
-        }
-    }
-    // Cells that hardly any walk brings light to are not normal, and their few hits make the
-    // quotient heavy-tailed; all others bring it to 1 within sqrt(2 / count) = 0.02.
-    let per_cell = chi_square / count;
-    println!("chi-square {per_cell:.3} per value over {count} values");
-    println!("total power {:+.3} %", 100.0 * (sum / expected_sum - 1.0));
-    assert!((0.9..1.15).contains(&per_cell), "{per_cell}");
-    // Channels of a walk are correlated: three times as much variance at most.
-    let error = (3.0 * variance).sqrt();
-    assert!(
-        (sum - expected_sum).abs() < 3.0 * error,
-        "{sum} {expected_sum}"
-    );
-    assert!(error < 2e-3 * expected_sum);
 }
 
 /// At least 95 % of means within two standard errors of the truth, over repeats.
