@@ -1,8 +1,10 @@
 //! `cargo xtask`: the command in a checkout, and its chores.
 
+mod bench;
 mod ci;
 mod knot;
 
+use bench::Bench;
 use clap::{Parser, Subcommand};
 use radiosity::cli::{Command, EXIT_CODES, Site, run};
 use std::path::Path;
@@ -22,6 +24,12 @@ enum Task {
     Radiosity(Box<Command>),
     /// Run everything that a change must pass: format, lints, docs, tests, a render
     Ci,
+    /// Measure what is claimed
+    Bench {
+        /// Which claims
+        #[command(subcommand)]
+        what: Bench,
+    },
     /// Make a file of the checkout anew
     Generate {
         /// Which one
@@ -46,6 +54,7 @@ fn main() -> ExitCode {
     };
     match Cli::parse().task {
         Task::Radiosity(command) => run(&command, &Site::checkout(&root)),
+        Task::Bench { what } => bench::run(what, &root),
         Task::Ci => ci::run(&root),
         Task::Generate {
             what: Generated::Knot,

@@ -1,0 +1,75 @@
+//! `cargo xtask bench`: what is claimed, measured anew.
+
+mod truth;
+
+use clap::Subcommand;
+use serde::Serialize;
+use std::path::Path;
+use std::process::ExitCode;
+
+#[derive(Clone, Copy, Debug, Subcommand)]
+pub(crate) enum Bench {
+    /// Every mode of the form factors against the oracle, on every shipped scene (minutes)
+    Truth {
+        /// Print one JSON object per figure: name, value, unit, target, holds
+        #[arg(long)]
+        json: bool,
+    },
+}
+
+/// A measured number and what is promised of it.
+#[derive(Clone, Debug, Serialize)]
+struct Figure {
+    name: String,
+    /// `null` where there is nothing to measure.
+    value: Option<f64>,
+    unit: &'static str,
+    /// What is promised, if anything is.
+    target: Option<Target>,
+    /// Whether the promise is kept.
+    holds: Option<bool>,
+}
+
+#[derive(Clone, Copy, Debug, Serialize)]
+#[serde(rename_all = "snake_case")]
+enum Target {
+    AtLeast(f64),
+    Between(f64, f64),
+}
+
+impl Figure {
+    fn new(name: String, value: Option<f64>, unit: &'static str, target: Option<Target>) -> Figure {
+        let keeps = |target: Target| {
+            value.is_some_and(|value| match target {
+                Target::AtLeast(least) => value >= least,
+                Target::Between(least, most) => (least..=most).contains(&value),
+            })
+        };
+        Figure {
+            name,
+            value,
+            unit,
+            target,
+            holds: target.map(keeps),
+        }
+    }
+
+    /// As one line of JSON.
+    fn print(&self) {
+        let line = serde_json::to_string(self).expect("plain data always encodes");
+        println!("{line}");
+    }
+}
+
+pub(crate) fn run(bench: Bench, root: &Path) -> ExitCode {
+    let result = match bench {
+        Bench::Truth { json } => truth::run(root, json),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! Radiosities and smooth pictures of every mode against the oracle.
+//!
+//! The oracle is noisy, but tells how much; what is reported is without its noise.
+
+use super::{Figure, Target};
+use radiosity::compare::{Decoded, Errors, Table, compare_pictures, compare_tables};
+use radiosity::geometry::Mesh;
+use radiosity::reference::{Tracer, cell_means};
+use radiosity::renderer::Image;
+use radiosity::scene::{Mode, Scene, load};
+use radiosity::{Error, Pipeline, Silent, Sources, cells, radiosity_table, reference_table};
+use std::path::Path;
+use std::time::Instant;
+
+const SCENES: [&str; 5] = [
+    "cornell",
+    "cornell-triangles",
+    "cornell-closed",
+    "furnace",
+    "knot",
+];
+
+/// Name, mode, points along an edge, pairs. The regular rule of 3 x 3 points is the course's; as
+/// many random pairs take the same time.
+const MODES: [(&str, Mode, u32, Option<u32>); 4] = [
+    ("regular-2", Mode::Regular, 2, None),
+    ("regular-3", Mode::Regular, 3, None),
+    ("regular-4", Mode::Regular, 4, None),
+    ("monte-carlo-81", Mode::MonteCarlo, 1, Some(81)),
+];
+
+/// Random walks of the oracle, shared by all patches.
+const WALKS: usize = 40_000_000;
+/// Size of the pictures, and passes of each of the two that the oracle makes.
+const PICTURE: (u32, u32) = (320, 240);
+const PASSES: u32 = 16;
+/// Passes by which the oracle's speed is measured.
+const SPEED_PASSES: u32 = 3;
+
+/// What the modes are judged by.
+struct Oracle {
+    table: Table,
+    picture: Decoded,
+    /// Root mean square errors, in percent of the mean.
+    table_noise: f64,
+    picture_noise: f64,
+}
+
+/// The errors of one mode, in percent.
+struct Accuracy {
+    rmse: f64,
+    bias: f64,
+    picture_rmse: f64,
+    /// Time of the form factors.
+    seconds: f64,
+}
+
+pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
+    let mut of_oracle = Vec::new();
+    if !json {
+        println!(
+            "| scene | mode | radiosities: RMSE | bias | smooth picture: RMSE | form factors |"
+        );
+        println!("|---|---|---|---|---|---|");
+    }
+    for name in SCENES {
+        let mut scene = load(&root.join(format!("scenes/{name}.toml")))?;
+        if ["cornell", "knot"].contains(&name) {
+            of_oracle.push(speed(&scene)?);
+        }
+        (scene.image.width, scene.image.height) = PICTURE;
+        let oracle = Oracle::of(&scene)?;
+        for (what, noise) in [
+            ("radiosity", oracle.table_noise),
+            ("picture", oracle.picture_noise),
+        ] {
+            let figure = format!("oracle.{name}.{what}_noise");
+            of_oracle.push(Figure::new(figure, Some(noise), "%", None));
+        }
+        for (mode_name, mode, points, pairs) in MODES {
+            let settings = &mut scene.form_factors;
+            (settings.mode, settings.points, settings.pairs) = (mode, points, pairs);
+            let accuracy = match oracle.judge(&scene) {
+                Ok(accuracy) => Some(accuracy),
+                Err(Error::Unsolvable { .. }) => None,
+                Err(error) => return Err(error),
+            };
+            if json {
+                let figures = figures(name, mode_name, accuracy.as_ref());
+                figures.iter().for_each(Figure::print);
+            } else {
+                println!("{}", table_row(name, mode_name, accuracy.as_ref()));
+            }
+        }
+    }
+    for figure in of_oracle {
+        if json {
+            figure.print();
+        } else {
+            let value = figure.value.unwrap_or(f64::NAN);
+            println!("{:<40}{value:>8.2} {}", figure.name, figure.unit);
+        }
+    }
+    Ok(())
+}
+
+impl Oracle {
+    fn of(scene: &Scene) -> Result<Oracle, Error> {
+        let pipeline = Pipeline::new(scene, None, &Silent)?;
+        let mesh = pipeline.mesh();
+        let walks = WALKS.div_ceil(mesh.patches.len()) as u32;
+        let means = cell_means(scene, mesh, walks, 1, &|_| ());
+        let [a, b] = [trace(scene, 2)?, trace(scene, 3)?];
+        // Half their difference has the variance of their mean.
+        let halves = picture_rmse(&a, &decoded(b.clone()), scene)?;
+        let mean = |(a, b): (&[f32; 3], &[f32; 3])| std::array::from_fn(|c| 0.5 * (a[c] + b[c]));
+        let pixels = a.pixels.iter().zip(&b.pixels).map(mean).collect();
+        let table = reference_table(scene, mesh, &means);
+        let itself = table_errors(scene, mesh, &table, &table)?;
+        Ok(Oracle {
+            table,
+            table_noise: itself.noise_percent.unwrap_or(0.0),
+            picture: decoded(Image { pixels, ..a }),
+            picture_noise: 0.5 * halves,
+        })
+    }
+
+    /// Renders a scene and compares.
+    fn judge(&self, scene: &Scene) -> Result<Accuracy, Error> {
+        let pipeline = Pipeline::new(scene, None, &Silent)?;
+        let solved = pipeline.solution(Sources::Cached)?;
+        let found = radiosity_table(scene, pipeline.mesh(), &solved.solution);
+        let all = table_errors(scene, pipeline.mesh(), &found, &self.table)?;
+        let smooth = pipeline.pictures(&solved.solution)?.smooth;
+        let squares = picture_rmse(&smooth, &self.picture, scene)?.powi(2);
+        Ok(Accuracy {
+            rmse: all.rmse_percent_without_noise(),
+            bias: all.bias_percent,
+            picture_rmse: (squares - self.picture_noise.powi(2)).max(0.0).sqrt(),
+            seconds: solved.form_factors.seconds,
+        })
+    }
+}
+
+/// Over the patches that do not emit; over all, where all emit.
+fn table_errors(
+    scene: &Scene,
+    mesh: &Mesh,
+    found: &Table,
+    reference: &Table,
+) -> Result<Errors, Error> {
+    let mut cells = cells(scene, mesh);
+    if cells.iter().all(|cell| cell.emits) {
+        cells.iter_mut().for_each(|cell| cell.emits = false);
+    }
+    let errors = compare_tables(&cells, found, reference);
+    let errors = errors.map_err(|error| Error::Input(error.to_string()))?;
+    Ok(errors[errors.len() - 1].1)
+}
+
+fn trace(scene: &Scene, seed: u64) -> Result<Image, Error> {
+    let mut tracer = tracer(scene, seed)?;
+    (0..PASSES).for_each(|_| tracer.pass(&|_| ()));
+    let traced = tracer.picture();
+    let to_f32 = |pixel: &[f64; 3]| pixel.map(|channel| channel as f32);
+    Ok(Image {
+        width: traced.width,
+        height: traced.height,
+        pixels: traced.radiance.iter().map(to_f32).collect(),
+    })
+}
+
+fn tracer(scene: &Scene, seed: u64) -> Result<Tracer<'_>, Error> {
+    let camera = scene.camera.as_ref().ok_or(Error::NoCamera)?;
+    Tracer::new(scene, camera, seed).map_err(|error| Error::Mesh(error.to_string()))
+}
+
+fn decoded(image: Image) -> Decoded {
+    Decoded {
+        image,
+        levels: false,
+    }
+}
+
+/// Over the pixels that the reference shows unclamped, in percent of their mean.
+fn picture_rmse(found: &Image, reference: &Decoded, scene: &Scene) -> Result<f64, Error> {
+    let errors = compare_pictures(found, reference, None, scene.image.exposure);
+    let errors = errors.map_err(|error| Error::Input(error.to_string()))?;
+    Ok(errors[errors.len() - 1].1.rmse_percent)
+}
+
+fn speed(scene: &Scene) -> Result<Figure, Error> {
+    let mut tracer = tracer(scene, 1)?;
+    let start = Instant::now();
+    (0..SPEED_PASSES).for_each(|_| tracer.pass(&|_| ()));
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let rate = tracer.vertices() as f64 / start.elapsed().as_secs_f64() / threads as f64;
+    Ok(Figure::new(
+        format!("oracle.{}.vertices", scene.name),
+        Some(1e-6 * rate),
+        "million path vertices/s/thread",
+        Some(Target::AtLeast(5.0)),
+    ))
+}
+
+fn figures(scene: &str, mode: &str, accuracy: Option<&Accuracy>) -> [Figure; 4] {
+    // What the course program is known to reach.
+    let course = (scene, mode) == ("cornell", "regular-3");
+    let known = |value: f64| course.then_some(Target::Between(value - 0.1, value + 0.1));
+    let figure = |what: &str, value: fn(&Accuracy) -> f64, unit, target| {
+        let name = format!("truth.{scene}.{mode}.{what}");
+        Figure::new(name, accuracy.map(value), unit, target)
+    };
+    [
+        figure("radiosity_rmse", |a| a.rmse, "%", known(4.50)),
+        figure("radiosity_bias", |a| a.bias, "%", known(1.63)),
+        figure("smooth_picture_rmse", |a| a.picture_rmse, "%", None),
+        figure("form_factor_seconds", |a| a.seconds, "s", None),
+    ]
+}
+
+fn table_row(scene: &str, mode: &str, accuracy: Option<&Accuracy>) -> String {
+    let cells = accuracy.map_or_else(
+        || "no solution | | |".to_owned(),
+        |a| {
+            format!(
+                "{:.2} % | {:+.2} % | {:.2} % | {:.2} s",
+                a.rmse, a.bias, a.picture_rmse, a.seconds
+            )
+        },
+    );
+    format!("| `{scene}` | {mode} | {cells} |")
+}
