@@ -54,6 +54,12 @@ impl Figure {
         }
     }
 
+    /// For people.
+    fn say(&self) {
+        let value = self.value.unwrap_or(f64::NAN);
+        println!("{:<40}{value:>8.2} {}", self.name, self.unit);
+    }
+
     /// As one line of JSON.
     fn print(&self) {
         let line = serde_json::to_string(self).expect("plain data always encodes");

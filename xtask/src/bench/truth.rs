@@ -56,13 +56,8 @@ struct Accuracy {
 }
 
 pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
+    let mut rows = Vec::new();
     let mut of_oracle = Vec::new();
-    if !json {
-        println!(
-            "| scene | mode | radiosities: RMSE | bias | smooth picture: RMSE | form factors |"
-        );
-        println!("|---|---|---|---|---|---|");
-    }
     for name in SCENES {
         let mut scene = load(&root.join(format!("scenes/{name}.toml")))?;
         if ["cornell", "knot"].contains(&name) {
@@ -70,36 +65,26 @@ pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
         }
         (scene.image.width, scene.image.height) = PICTURE;
         let oracle = Oracle::of(&scene)?;
-        for (what, noise) in [
-            ("radiosity", oracle.table_noise),
-            ("picture", oracle.picture_noise),
-        ] {
-            let figure = format!("oracle.{name}.{what}_noise");
-            of_oracle.push(Figure::new(figure, Some(noise), "%", None));
-        }
+        of_oracle.extend(oracle.noise(name));
+        let mut row = format!("| `{name}` |");
         for (mode_name, mode, points, pairs) in MODES {
             let settings = &mut scene.form_factors;
             (settings.mode, settings.points, settings.pairs) = (mode, points, pairs);
-            let accuracy = match oracle.judge(&scene) {
-                Ok(accuracy) => Some(accuracy),
-                Err(Error::Unsolvable { .. }) => None,
-                Err(error) => return Err(error),
-            };
+            let accuracy = oracle.judge(&scene)?;
+            eprintln!("{name}, {mode_name}: {}", described(accuracy.as_ref()));
+            row += &format!(" {} |", described(accuracy.as_ref()));
             if json {
                 let figures = figures(name, mode_name, accuracy.as_ref());
                 figures.iter().for_each(Figure::print);
-            } else {
-                println!("{}", table_row(name, mode_name, accuracy.as_ref()));
             }
         }
+        rows.push(row);
     }
-    for figure in of_oracle {
-        if json {
-            figure.print();
-        } else {
-            let value = figure.value.unwrap_or(f64::NAN);
-            println!("{:<40}{value:>8.2} {}", figure.name, figure.unit);
-        }
+    if json {
+        of_oracle.iter().for_each(Figure::print);
+    } else {
+        print_table(&rows);
+        of_oracle.iter().for_each(Figure::say);
     }
     Ok(())
 }
@@ -125,20 +110,34 @@ impl Oracle {
         })
     }
 
-    /// Renders a scene and compares.
-    fn judge(&self, scene: &Scene) -> Result<Accuracy, Error> {
+    fn noise(&self, scene: &str) -> [Figure; 2] {
+        let noises = [
+            ("radiosity", self.table_noise),
+            ("picture", self.picture_noise),
+        ];
+        noises.map(|(what, noise)| {
+            let name = format!("oracle.{scene}.{what}_noise");
+            Figure::new(name, Some(noise), "%", None)
+        })
+    }
+
+    /// Renders a scene and compares; `None` if it has no solution.
+    fn judge(&self, scene: &Scene) -> Result<Option<Accuracy>, Error> {
         let pipeline = Pipeline::new(scene, None, &Silent)?;
-        let solved = pipeline.solution(Sources::Cached)?;
+        let solved = match pipeline.solution(Sources::Cached) {
+            Err(Error::Unsolvable { .. }) => return Ok(None),
+            solved => solved?,
+        };
         let found = radiosity_table(scene, pipeline.mesh(), &solved.solution);
         let all = table_errors(scene, pipeline.mesh(), &found, &self.table)?;
         let smooth = pipeline.pictures(&solved.solution)?.smooth;
         let squares = picture_rmse(&smooth, &self.picture, scene)?.powi(2);
-        Ok(Accuracy {
+        Ok(Some(Accuracy {
             rmse: all.rmse_percent_without_noise(),
             bias: all.bias_percent,
             picture_rmse: (squares - self.picture_noise.powi(2)).max(0.0).sqrt(),
             seconds: solved.form_factors.seconds,
-        })
+        }))
     }
 }
 
@@ -219,15 +218,17 @@ fn figures(scene: &str, mode: &str, accuracy: Option<&Accuracy>) -> [Figure; 4] 
     ]
 }
 
-fn table_row(scene: &str, mode: &str, accuracy: Option<&Accuracy>) -> String {
-    let cells = accuracy.map_or_else(
-        || "no solution | | |".to_owned(),
-        |a| {
-            format!(
-                "{:.2} % | {:+.2} % | {:.2} % | {:.2} s",
-                a.rmse, a.bias, a.picture_rmse, a.seconds
-            )
-        },
-    );
-    format!("| `{scene}` | {mode} | {cells} |")
+fn described(accuracy: Option<&Accuracy>) -> String {
+    accuracy.map_or_else(
+        || "no solution".to_owned(),
+        |a| format!("{:.2} %, {:+.2} %; {:.2} %", a.rmse, a.bias, a.picture_rmse),
+    )
+}
+
+fn print_table(rows: &[String]) {
+    let modes = MODES.map(|(name, ..)| name);
+    println!("| scene | {} |", modes.join(" | "));
+    println!("|---|{}", "---|".repeat(modes.len()));
+    rows.iter().for_each(|row| println!("{row}"));
+    println!("\nRMSE, bias of the radiosities; RMSE of the smooth picture\n");
 }
