@@ -62,8 +62,11 @@ impl Bvh {
         visitor: &mut impl Visitor,
     ) {
         if self.leaves.len() <= FEW_LEAVES {
-            let mut leaves = 0..self.leaves.len();
-            let _ = leaves.try_for_each(|leaf| visitor.visit(simd, leaf, &mut limit));
+            for leaf in 0..self.leaves.len() {
+                if visitor.visit(simd, leaf, &mut limit).is_break() {
+                    break;
+                }
+            }
             return;
         }
         let Some(slabs) = self.frame.ray(ray, from, limit) else {

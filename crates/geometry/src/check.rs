@@ -5,9 +5,9 @@ use glam::DVec3;
 /// Why a shape cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ShapeError {
-    /// A coordinate is NaN or infinite.
-    #[error("has a coordinate that is not a finite number")]
-    NotFinite,
+    /// A coordinate is NaN, or so large that boxes in single precision cannot hold it.
+    #[error("has a coordinate that is no number between -1e30 and 1e30")]
+    OutOfRange,
     /// Three corners lie on a line, or all of them do.
     #[error("has no area: corners coincide or lie on a line, or edges are parallel")]
     NoArea,
@@ -59,9 +59,16 @@ pub(crate) const PLANARITY: f64 = 1e-5;
 /// Height over longest edge below which a triangle counts as a line.
 const SLIVER: f64 = 1e-9;
 
+/// Products of coordinates stay finite, and so do coordinates in single precision.
+const LARGEST: f64 = 1e30;
+
+fn in_range(point: &DVec3) -> bool {
+    point.abs().cmple(DVec3::splat(LARGEST)).all()
+}
+
 pub(crate) fn check_triangle([a, b, c]: [DVec3; 3]) -> Result<(), ShapeError> {
-    if ![a, b, c].iter().all(|p| p.is_finite()) {
-        return Err(ShapeError::NotFinite);
+    if ![a, b, c].iter().all(in_range) {
+        return Err(ShapeError::OutOfRange);
     }
     let (ab, ac) = (b - a, c - a);
     let longest = ab.length().max(ac.length()).max((c - b).length());
@@ -75,8 +82,8 @@ pub(crate) fn check_triangle([a, b, c]: [DVec3; 3]) -> Result<(), ShapeError> {
 }
 
 pub(crate) fn check_quad(corners: &[DVec3; 4]) -> Result<(), ShapeError> {
-    if !corners.iter().all(|p| p.is_finite()) {
-        return Err(ShapeError::NotFinite);
+    if !corners.iter().all(in_range) {
+        return Err(ShapeError::OutOfRange);
     }
     let [a, b, c, d] = *corners;
     let diagonal = (c - a).length().max((d - b).length());

@@ -31,6 +31,8 @@ pub(crate) struct Frame {
 #[repr(align(32))]
 pub(crate) struct Boxes {
     sides: [[f32; LANES]; 6],
+    /// The lanes that hold a box.
+    used: u8,
 }
 
 /// A ray for boxes: parameters count from where it enters the scene.
@@ -75,17 +77,16 @@ impl Frame {
 }
 
 impl Boxes {
-    /// Boxes of nothing: no ray enters them.
-    pub(crate) const EMPTY: Boxes = {
-        let (low, high) = ([f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]);
-        Boxes {
-            sides: [low, low, low, high, high, high],
-        }
+    /// No boxes.
+    pub(crate) const EMPTY: Boxes = Boxes {
+        sides: [[0.0; LANES]; 6],
+        used: 0,
     };
 
     /// Puts a box in a lane, rounded outwards.
     pub(crate) fn set(&mut self, lane: usize, bounds: Aabb, frame: &Frame) {
         let bounds = bounds.grown(frame.padding);
+        self.used |= 1 << lane;
         for k in 0..3 {
             self.sides[k][lane] = (bounds.min[k] - frame.center[k]) as f32;
             self.sides[k + 3][lane] = (bounds.max[k] - frame.center[k]) as f32;
@@ -106,13 +107,13 @@ impl Boxes {
             exit = far.min(exit);
         }
         let exit = exit * simd.splat_f32(1.0 + RELATIVE_ERROR);
-        (entry.less_or_equal(exit), entry.lanes())
+        (entry.less_or_equal(exit) & self.used, entry.lanes())
     }
 
     /// Which boxes share a point with the first box of `region`, one bit each.
     #[inline(always)]
     pub(crate) fn overlap<S: Simd>(&self, simd: S, region: &Boxes) -> u8 {
-        let mut mask = u8::MAX;
+        let mut mask = self.used;
         for k in 0..3 {
             let low = simd.splat_f32(region.sides[k][0]);
             let high = simd.splat_f32(region.sides[k + 3][0]);

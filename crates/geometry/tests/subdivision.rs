@@ -188,7 +188,15 @@ fn bad_shapes_are_explained() {
     assert_eq!(error(Shape::Triangle([DVec3::X; 3])), ShapeError::NoArea);
     assert_eq!(
         error(Shape::Triangle([nan, DVec3::X, DVec3::Y])),
-        ShapeError::NotFinite
+        ShapeError::OutOfRange
+    );
+    assert_eq!(
+        error(parallelogram(
+            [1.1e30, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0]
+        )),
+        ShapeError::OutOfRange
     );
     assert_eq!(
         error(quad([
