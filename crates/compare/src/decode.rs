@@ -10,8 +10,10 @@ use std::io::Cursor;
 pub struct Screen {
     /// Factor from radiance to brightness.
     pub exposure: f64,
-    /// The exponent; `None`: what a PNG says of itself, else [`Screen::USUAL_GAMMA`].
+    /// The exponent, whatever a PNG says of itself.
     pub gamma: Option<f64>,
+    /// The exponent of pictures that say nothing of themselves.
+    pub usual_gamma: f64,
 }
 
 /// A picture as linear radiance.
@@ -40,12 +42,9 @@ pub enum DecodeError {
 }
 
 impl Screen {
-    /// What pictures without a gamma of their own are taken to have.
-    pub const USUAL_GAMMA: f64 = 2.2;
-
     /// Radiance of a level between 0 and 1.
     fn radiance(&self, level: f64, own_gamma: Option<f64>) -> f32 {
-        let gamma = self.gamma.or(own_gamma).unwrap_or(Screen::USUAL_GAMMA);
+        let gamma = self.gamma.or(own_gamma).unwrap_or(self.usual_gamma);
         (level.powf(gamma) / self.exposure) as f32
     }
 }
@@ -63,7 +62,7 @@ pub fn decode_picture(bytes: &[u8], screen: &Screen) -> Result<Decoded, DecodeEr
         png_levels(bytes, screen)
     } else if bytes.starts_with(EXR) {
         exr_radiance(bytes).map(linear)
-    } else if bytes.starts_with(b"PF") {
+    } else if bytes.starts_with(b"PF") || bytes.starts_with(b"Pf") {
         portable::float_map(bytes).map(linear)
     } else if bytes.starts_with(b"P3") || bytes.starts_with(b"P6") {
         let levels = portable::levels(bytes)?;
@@ -106,7 +105,8 @@ fn png_levels(bytes: &[u8], screen: &Screen) -> Result<Decoded, DecodeError> {
     let gamma = reader
         .info()
         .gamma()
-        .map(|g| 1.0 / f64::from(g.into_value()));
+        .map(|g| 1.0 / f64::from(g.into_value()))
+        .filter(|gamma| gamma.is_finite());
     let (width, height) = (reader.info().width, reader.info().height);
     check_size("PNG", width.into(), height.into())?;
     let size = reader.output_buffer_size().ok_or(DecodeError::Unknown)?;

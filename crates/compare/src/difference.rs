@@ -8,7 +8,7 @@ pub struct DifferencePicture {
     /// White: equal. Red: brighter than the reference. Blue: darker.
     pub picture: Picture,
     /// The difference that is shown at full colour, in W/(m^2 sr).
-    pub full_scale: f32,
+    pub full_scale: f64,
 }
 
 /// Of all pixels, so many show less than full colour: a few outliers must not hide the others.
@@ -16,15 +16,15 @@ const SHARE_BELOW_FULL: f64 = 0.99;
 
 /// Shows the mean difference of the channels of two pictures of one size.
 pub fn difference_picture(found: &Image, reference: &Image) -> DifferencePicture {
-    let mean = |pixel: &[f32; 3]| pixel.iter().sum::<f32>() / 3.0;
+    let mean = |pixel: &[f32; 3]| pixel.iter().map(|&c| f64::from(c)).sum::<f64>() / 3.0;
     let pairs = found.pixels.iter().zip(&reference.pixels);
-    let differences: Vec<f32> = pairs.map(|(f, r)| mean(f) - mean(r)).collect();
-    let mut sizes: Vec<f32> = differences.iter().map(|d| d.abs()).collect();
-    sizes.sort_by(f32::total_cmp);
+    let differences: Vec<f64> = pairs.map(|(f, r)| mean(f) - mean(r)).collect();
+    let mut sizes: Vec<f64> = differences.iter().map(|d| d.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
     let index = (SHARE_BELOW_FULL * sizes.len() as f64) as usize;
     let full_scale = sizes.get(index).copied().unwrap_or(0.0);
-    let color = |difference: &f32| {
-        let strength = (difference / full_scale.max(f32::MIN_POSITIVE)).clamp(-1.0, 1.0);
+    let color = |difference: &f64| {
+        let strength = (difference / full_scale.max(f64::MIN_POSITIVE)).clamp(-1.0, 1.0);
         let faded = (255.0 * (1.0 - strength.abs())).round() as u8;
         if strength > 0.0 {
             [255, faded, faded]

@@ -1,5 +1,6 @@
 //! Maps that say which region of a picture a pixel belongs to.
 
+use crate::decode::check_size;
 use std::io::Cursor;
 
 /// The region of each pixel, row by row from the top left.
@@ -30,6 +31,9 @@ pub fn decode_regions(bytes: &[u8]) -> Result<Regions, RegionsError> {
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::IDENTITY);
     let mut reader = decoder.read_info().map_err(broken)?;
+    let (width, height) = (reader.info().width, reader.info().height);
+    let sized = check_size("PNG", width.into(), height.into());
+    sized.map_err(|error| RegionsError::Png(error.to_string()))?;
     let size = reader.output_buffer_size().ok_or(RegionsError::NotGrey)?;
     let mut labels = vec![0; size];
     let info = reader.next_frame(&mut labels).map_err(broken)?;

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 /// One patch of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// Where the table has it, counted from 1.
+    /// Its line in the file, counted from 1.
     pub line: u64,
     /// Name of the surface.
     pub surface: String,

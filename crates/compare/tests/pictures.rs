@@ -10,6 +10,7 @@ use radiosity_renderer::{Image, PictureFormat, ToneMap, encode, encode_pfm};
 const SCREEN: Screen = Screen {
     exposure: 4.0,
     gamma: None,
+    usual_gamma: 2.2,
 };
 
 fn image(width: u32, pixels: Vec<[f32; 3]>) -> Image {
@@ -112,6 +113,7 @@ fn levels_become_radiance() {
         let screen = Screen {
             exposure: 4.0,
             gamma: Some(gamma),
+            usual_gamma: 2.2,
         };
         let tone = ToneMap {
             exposure: 4.0,
@@ -155,7 +157,12 @@ fn pictures_may_know_their_gamma() {
     let picture = tone.apply(&ramp());
     let png = encode(&picture, PictureFormat::Png { gamma: 1.0 });
     let radiance = |gamma| {
-        let screen = Screen { gamma, ..SCREEN };
+        // What is usual elsewhere does not matter.
+        let screen = Screen {
+            gamma,
+            usual_gamma: 1.7,
+            ..SCREEN
+        };
         decode_picture(&png, &screen).unwrap().image.pixels[1][0]
     };
     assert!((radiance(None) - 0.03).abs() < 1e-3);
@@ -168,6 +175,7 @@ fn two_bytes_a_sample_are_read() {
     let linear = Screen {
         exposure: 1.0,
         gamma: Some(1.0),
+        usual_gamma: 2.2,
     };
     let decoded = decode_picture(wide, &linear).unwrap();
     assert_eq!(decoded.image.pixels, [[1.0, 0.5, 0.0]]);
@@ -180,6 +188,7 @@ fn damaged_pictures_are_told_from_good_ones() {
     assert!(message(b"P6 2 1 255\nabc").contains("6 samples or bytes should follow"));
     assert!(message(b"P3 1 1 255\n0 0 256").contains("brighter"));
     assert!(message(b"PF 70000 70000 1\n").contains("too many"));
+    assert!(message(b"Pf 1 1 1\n").contains("no three channels"));
     assert!(message(b"PF 1 1 0\n").contains("scale"));
     assert!(message(b"P6 1 x 255\n").contains("width and height"));
     assert!(decode_regions(b"no picture").is_err());
@@ -224,4 +233,46 @@ proptest! {
         let _ = decode_picture(&png, &SCREEN);
         let _ = decode_regions(&png);
     }
+}
+
+/// A header may promise more than memory holds.
+#[test]
+fn huge_maps_are_refused_before_memory_is_taken() {
+    let grey = encode_grey(1, 1);
+    assert!(decode_regions(&grey).is_ok());
+    let error = decode_regions(&encode_grey(200_000, 200_000)).unwrap_err();
+    assert!(error.to_string().contains("too many"), "{error}");
+}
+
+/// The header and the one row of a grey picture that claims to be of some size.
+fn encode_grey(width: u32, height: u32) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Grayscale);
+    let mut writer = encoder.write_header().unwrap();
+    let _ = writer.write_image_data(&[7]);
+    drop(writer);
+    bytes
+}
+
+/// Most pixels are equal, few are not; the scale may be zero, and sums do not overflow.
+#[test]
+fn differences_are_shown_on_a_scale_of_their_own() {
+    let flat = |value| Image {
+        width: 200,
+        height: 1,
+        pixels: vec![[value; 3]; 200],
+    };
+    let equal = difference_picture(&flat(1.0), &flat(1.0));
+    assert_eq!(equal.full_scale, 0.0);
+    assert!(equal.picture.bytes.iter().all(|&byte| byte == 255));
+    let mut one = flat(1.0);
+    one.pixels[3] = [2.0; 3];
+    let shown = difference_picture(&one, &flat(1.0)).picture.bytes;
+    assert_eq!(shown[9..12], [255, 0, 0]);
+    assert!(
+        difference_picture(&flat(3e38), &flat(-3e38))
+            .full_scale
+            .is_finite()
+    );
 }
