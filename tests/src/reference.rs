@@ -24,6 +24,7 @@ pub fn radiance(filter: PixelFilter) -> Decoded {
     let linear = Screen {
         exposure: 1.0,
         gamma: None,
+        usual_gamma: 1.0,
     };
     decode_picture(&data(name), &linear).expect("the picture is well-formed")
 }

@@ -37,6 +37,15 @@ enum Target {
     Between(f64, f64),
 }
 
+impl std::fmt::Display for Target {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Target::AtLeast(least) => write!(f, "target: at least {least}"),
+            Target::Between(least, most) => write!(f, "target: {least} to {most}"),
+        }
+    }
+}
+
 impl Figure {
     fn new(name: String, value: Option<f64>, unit: &'static str, target: Option<Target>) -> Figure {
         let keeps = |target: Target| {
@@ -57,7 +66,15 @@ impl Figure {
     /// For people.
     fn say(&self) {
         let value = self.value.unwrap_or(f64::NAN);
-        println!("{:<40}{value:>8.2} {}", self.name, self.unit);
+        let promise = self.target.map_or_else(String::new, |target| {
+            let kept = if self.holds == Some(true) {
+                "kept"
+            } else {
+                "missed"
+            };
+            format!(" ({target}: {kept})")
+        });
+        println!("{:<40}{value:>8.2} {}{promise}", self.name, self.unit);
     }
 
     /// As one line of JSON.

@@ -70,6 +70,12 @@ fn tables_are_compared() {
     assert_eq!(names, ["all", "block", "floor", "wing"]);
     let rmse = json["regions"]["all"]["rmse_percent"].as_f64().unwrap();
     assert!(0.0 < rmse && rmse < 50.0, "{json}");
+    let said = place.succeed(compare);
+    assert!(said.contains("the reference's own noise is"), "{said}");
+    assert!(
+        said.contains("left out: lamp, the only one (emits)"),
+        "{said}"
+    );
     let itself = place.json("compare solved.csv solved.csv --scene flat.toml --patches 3");
     assert_eq!(itself["regions"]["all"]["rmse_percent"], 0.0);
 }
@@ -103,6 +109,11 @@ fn what_cannot_be_compared_is_said() {
             "b.ppm is not a good PNG",
         ),
         ("compare none.png a.ppm", "cannot read none.png"),
+        ("compare a.ppm a.ppm --patches 3", "--patches is for tables"),
+        (
+            "compare a.csv a.csv --scene room.toml --gamma 2",
+            "are for pictures",
+        ),
         (
             "compare room.toml a.ppm",
             "room.toml is none of the formats",

@@ -98,3 +98,20 @@ fn reference_tables_have_the_rows_of_solutions() {
     };
     assert_eq!(cells(&traced, 6), cells(&solved, 3));
 }
+
+/// A standard error needs two samples, and flags of pictures change no table.
+#[test]
+fn what_means_nothing_is_refused() {
+    let place = Place::new();
+    for arguments in [
+        "reference room.toml --spp 1",
+        "reference room.toml --cells --size 8x6",
+        "reference room.toml --patches 2 --exposure 3",
+        "reference room.toml --cells --time 1",
+    ] {
+        assert_eq!(place.fail(arguments).0, 2, "{arguments}");
+    }
+    let json = place.json("reference room.toml --spp 2 --subpixels 1");
+    assert_eq!(json["walks"], 2);
+    assert!(json["picture"]["error_percent"].as_f64().unwrap() > 0.0);
+}

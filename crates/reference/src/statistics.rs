@@ -26,9 +26,12 @@ impl Samples {
         self.mean
     }
 
-    /// The standard error of the mean; zero for fewer than two samples.
+    /// The standard error of the mean; infinite for fewer than two samples.
     pub(crate) fn standard_error(&self) -> Rgb {
-        let pairs = (self.count * (self.count - 1.0)).max(1.0);
+        if self.count < 2.0 {
+            return [f64::INFINITY; 3];
+        }
+        let pairs = self.count * (self.count - 1.0);
         self.squares.map(|squares| (squares / pairs).sqrt())
     }
 }

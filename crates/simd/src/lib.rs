@@ -36,6 +36,8 @@ mod registers;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::OnceLock;
 
+const VARIABLE: &str = "RADIOSITY_SIMD";
+
 /// How many numbers are computed at once.
 pub const LANES: usize = 8;
 
@@ -113,15 +115,25 @@ impl InstructionSet {
         let mut sets = Vec::new();
         #[cfg(target_arch = "x86_64")]
         {
-            if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl") {
+            let avx2 = is_x86_feature_detected!("avx2");
+            let avx512f = is_x86_feature_detected!("avx512f");
+            if avx2 && avx512f && is_x86_feature_detected!("avx512vl") {
                 sets.push(InstructionSet(Name::Avx512));
             }
-            if is_x86_feature_detected!("avx2") {
+            if avx2 {
                 sets.push(InstructionSet(Name::Avx2));
             }
         }
         sets.push(InstructionSet(Name::Portable));
         sets
+    }
+
+    /// The name that is not one of this machine's, if the environment variable has such a one.
+    pub fn unknown_wish() -> Option<String> {
+        let wanted = std::env::var(VARIABLE).ok()?;
+        let mut sets = InstructionSet::available().into_iter();
+        let is_known = wanted.is_empty() || sets.any(|set| set.name() == wanted);
+        (!is_known).then_some(wanted)
     }
 
     /// The one that [`dispatch`] uses: the best, unless `RADIOSITY_SIMD` names another that the
@@ -130,7 +142,7 @@ impl InstructionSet {
     pub fn current() -> InstructionSet {
         static CURRENT: OnceLock<InstructionSet> = OnceLock::new();
         *CURRENT.get_or_init(|| {
-            let wanted = std::env::var("RADIOSITY_SIMD").unwrap_or_default();
+            let wanted = std::env::var(VARIABLE).unwrap_or_default();
             let sets = InstructionSet::available();
             let named = sets.iter().find(|set| set.name() == wanted);
             *named.unwrap_or(&sets[0])

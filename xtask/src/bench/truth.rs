@@ -192,8 +192,8 @@ fn speed(scene: &Scene) -> Result<Figure, Error> {
     let mut tracer = tracer(scene, 1)?;
     let start = Instant::now();
     (0..SPEED_PASSES).for_each(|_| tracer.pass(&|_| ()));
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let rate = tracer.vertices() as f64 / start.elapsed().as_secs_f64() / threads as f64;
+    let threads = rayon::current_num_threads() as f64;
+    let rate = tracer.vertices() as f64 / start.elapsed().as_secs_f64() / threads;
     Ok(Figure::new(
         format!("oracle.{}.vertices", scene.name),
         Some(1e-6 * rate),

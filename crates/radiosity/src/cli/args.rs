@@ -91,6 +91,9 @@ pub struct SolveArgs {
     pub max_sweeps: Option<u32>,
 }
 
+/// The flags of [`ImageArgs`].
+const OF_PICTURES: [&str; 5] = ["size", "subpixels", "filter", "exposure", "gamma"];
+
 /// What a picture is like, however it is made.
 #[derive(Debug, Args)]
 pub struct ImageArgs {
@@ -193,22 +196,24 @@ pub struct ReferenceCommand {
     /// A scene file, or the name of one in `scenes/`
     #[arg(default_value = "cornell")]
     pub scene: String,
-    /// Random walks per pixel (rounded up to whole passes of one per sub-pixel) or per patch
-    #[arg(long, value_name = "N", default_value = "64", value_parser = clap::value_parser!(u32).range(1..))]
+    /// Random walks per pixel (rounded up to whole passes of one per sub-pixel) or per patch, at
+    /// least 2
+    #[arg(long, value_name = "N", default_value = "64", value_parser = clap::value_parser!(u32).range(2..))]
     pub spp: u32,
     /// Stop the picture after so many seconds; the result then depends on the machine's speed
     #[arg(long, value_name = "SECONDS", value_parser = parse_positive, allow_negative_numbers = true, conflicts_with_all = ["spp", "patches", "cells"])]
     pub time: Option<f64>,
-    /// Stop when the picture's estimated relative error is below so many percent
+    /// Stop when the picture's estimated relative error is below so many percent, after 16 passes
+    /// at least
     #[arg(long, value_name = "PERCENT", value_parser = parse_positive, allow_negative_numbers = true, conflicts_with_all = ["spp", "time", "patches", "cells"])]
     pub error: Option<f64>,
     /// Instead of a picture, the mean radiosity of each cell of an N x N (or AxB) grid over each
     /// surface, hidden parts included, as CSV; faces of meshes are cells as they are
-    #[arg(long, value_name = "N", value_parser = parse_counts)]
+    #[arg(long, value_name = "N", value_parser = parse_counts, conflicts_with_all = OF_PICTURES)]
     pub patches: Option<(u32, u32)>,
     /// Instead of a picture, the mean radiosity of each of the scene's own patches, as CSV: the
     /// rows of `solve --export`
-    #[arg(long, conflicts_with = "patches")]
+    #[arg(long, conflicts_with = "patches", conflicts_with_all = OF_PICTURES)]
     pub cells: bool,
     /// Seed of the random walks
     #[arg(long, value_name = "N", default_value = "0")]
@@ -248,8 +253,8 @@ pub struct CompareCommand {
     /// and levels are divided by it [default: the scene's, or 1]
     #[arg(long, value_name = "X", value_parser = parse_positive, allow_negative_numbers = true)]
     pub exposure: Option<f64>,
-    /// Exponent by which levels of .ppm and .png become brightness [default: the scene's, a
-    /// PNG's own, or 2.2]
+    /// Exponent by which levels of .ppm and .png become brightness [default: a PNG's own, the
+    /// scene's, or 2.2]
     #[arg(long, value_name = "X", value_parser = parse_positive, allow_negative_numbers = true)]
     pub gamma: Option<f64>,
     /// Write the differences: .png in colours (red: brighter, blue: darker), .pfm as linear

@@ -3,12 +3,13 @@
 use super::args::CompareCommand;
 use super::run::{check_folder_of, write};
 use super::site::Site;
-use super::terminal::say;
+use super::terminal::{say, tell};
 use crate::error::Error;
 use crate::export::cells;
+use crate::resources::grouped;
 use radiosity_compare::{
-    Decoded, Errors, Screen, compare_pictures, compare_tables, decode_picture, decode_regions,
-    difference_picture, parse_table,
+    Cell, Decoded, Errors, Screen, compare_pictures, compare_tables, decode_picture,
+    decode_regions, difference_picture, parse_table,
 };
 use radiosity_geometry::{Divisions, subdivide};
 use radiosity_renderer::{Image, PictureFormat, encode, encode_pfm};
@@ -16,6 +17,9 @@ use radiosity_scene::Scene;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+/// What pictures without a gamma of their own are taken to have.
+const USUAL_GAMMA: f64 = 2.2;
 
 /// The object that `--json` prints. Fields may be added, but not changed or removed.
 #[derive(Debug, Serialize)]
@@ -30,14 +34,25 @@ struct Json {
     difference: Option<PathBuf>,
 }
 
+/// What came out.
+struct Compared {
+    /// By region or surface.
+    named: Vec<(String, Errors)>,
+    /// What does not count, in words; empty if everything does.
+    left_out: String,
+}
+
 pub(crate) fn run(args: &CompareCommand, site: &Site) -> Result<(), Error> {
     let scene = args.scene.as_ref().map(|name| site.load(name));
     let scene = scene.transpose()?;
     if let Some(path) = &args.difference {
         check_folder_of(path)?;
     }
-    let is_table = |path: &Path| path.extension().is_some_and(|ending| ending == "csv");
-    let named = match [&args.found, &args.reference].map(|path| is_table(path)) {
+    let is_table = |path: &Path| {
+        let ending = path.extension();
+        ending.is_some_and(|ending| ending.eq_ignore_ascii_case("csv"))
+    };
+    let compared = match [&args.found, &args.reference].map(|path| is_table(path)) {
         [false, false] => pictures(args, scene.as_ref())?,
         [true, true] => tables(args, scene.as_ref())?,
         _ => {
@@ -49,24 +64,29 @@ pub(crate) fn run(args: &CompareCommand, site: &Site) -> Result<(), Error> {
         let json = Json {
             found: args.found.clone(),
             reference: args.reference.clone(),
-            regions: named.into_iter().collect(),
+            regions: compared.named.into_iter().collect(),
             difference: args.difference.clone(),
         };
         return say(&serde_json::to_string(&json).expect("plain data always encodes"));
     }
-    print(&named)?;
+    print(&compared)?;
     match &args.difference {
         Some(path) => say(&path.display().to_string()),
         None => Ok(()),
     }
 }
 
-fn pictures(args: &CompareCommand, scene: Option<&Scene>) -> Result<Vec<(String, Errors)>, Error> {
+fn pictures(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Error> {
+    if args.patches.is_some() {
+        let problem = "--patches is for tables, not for pictures";
+        return Err(Error::Input(problem.to_owned()));
+    }
     let image = scene.map(|scene| &scene.image);
     let exposure = args.exposure.or(image.map(|image| image.exposure));
     let screen = Screen {
         exposure: exposure.unwrap_or(1.0),
-        gamma: args.gamma.or(image.map(|image| image.gamma)),
+        gamma: args.gamma,
+        usual_gamma: image.map_or(USUAL_GAMMA, |image| image.gamma),
     };
     let picture = |path: &Path| decode_picture(&read(path)?, &screen).map_err(at(path));
     let (found, reference) = (picture(&args.found)?, picture(&args.reference)?);
@@ -74,11 +94,21 @@ fn pictures(args: &CompareCommand, scene: Option<&Scene>) -> Result<Vec<(String,
     let map = map.map(|path| decode_regions(&read(path)?).map_err(at(path)));
     let map = map.transpose()?;
     let errors = compare_pictures(&found.image, &reference, map.as_ref(), screen.exposure);
-    let errors = errors.map_err(|error| Error::Input(error.to_string()))?;
+    let named = errors.map_err(|error| Error::Input(error.to_string()))?;
     if let Some(path) = &args.difference {
         write(path, &difference(path, &found, &reference))?;
     }
-    Ok(errors)
+    let counted = named.last().map_or(0, |(_, all)| all.values / 3);
+    let clamped = reference.image.pixels.len() - counted;
+    let left_out = match clamped {
+        0 => String::new(),
+        _ => format!(
+            "{} pixels that the reference shows clamped at exposure {}",
+            grouped(clamped as u64),
+            screen.exposure
+        ),
+    };
+    Ok(Compared { named, left_out })
 }
 
 /// The bytes of the picture of differences: linear and signed where the file is a float map.
@@ -94,19 +124,29 @@ fn difference(path: &Path, found: &Decoded, reference: &Decoded) -> Vec<u8> {
         });
     }
     let shown = difference_picture(found, reference);
-    eprintln!(
-        "red: brighter than the reference, blue: darker; full colour at a difference of {:.3e} W/(m^2 sr)",
-        shown.full_scale
-    );
+    if found.pixels == reference.pixels {
+        tell("the pictures are equal");
+    } else {
+        tell(&format!(
+            "red: brighter than the reference, blue: darker; full colour at a difference of {:.3e} W/(m^2 sr)",
+            shown.full_scale
+        ));
+    }
     encode(&shown.picture, PictureFormat::Png { gamma: 2.2 })
 }
 
-fn tables(args: &CompareCommand, scene: Option<&Scene>) -> Result<Vec<(String, Errors)>, Error> {
+fn tables(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Error> {
     let needs_scene =
         || Error::Input("tables do not tell the areas of patches: name their --scene".to_owned());
-    let only_pictures = [args.regions.is_some(), args.difference.is_some()];
+    let only_pictures = [
+        args.regions.is_some(),
+        args.difference.is_some(),
+        args.exposure.is_some(),
+        args.gamma.is_some(),
+    ];
     if only_pictures.contains(&true) {
-        let problem = "--regions and --difference are for pictures, not for tables";
+        let problem =
+            "--regions, --difference, --exposure and --gamma are for pictures, not for tables";
         return Err(Error::Input(problem.to_owned()));
     }
     let scene = scene.ok_or_else(needs_scene)?;
@@ -118,7 +158,22 @@ fn tables(args: &CompareCommand, scene: Option<&Scene>) -> Result<Vec<(String, E
     let cells = cells(scene, &mesh.map_err(of_mesh)?);
     let table = |path: &Path| parse_table(&read(path)?).map_err(at(path));
     let (found, reference) = (table(&args.found)?, table(&args.reference)?);
-    compare_tables(&cells, &found, &reference).map_err(|error| Error::Input(error.to_string()))
+    let named = compare_tables(&cells, &found, &reference);
+    let named = named.map_err(|error| Error::Input(error.to_string()))?;
+    let left_out = surfaces_left_out(&cells, &named);
+    Ok(Compared { named, left_out })
+}
+
+/// The surfaces of which no patch counts.
+fn surfaces_left_out(cells: &[Cell], named: &[(String, Errors)]) -> String {
+    let counts = |cell: &Cell| named.iter().any(|(name, _)| *name == cell.surface);
+    let mut left_out: Vec<String> = Vec::new();
+    for cell in cells.iter().filter(|cell| !counts(cell)) {
+        let why = if cell.emits { "emits" } else { "unlit" };
+        left_out.push(format!("{} ({why})", cell.surface));
+    }
+    left_out.dedup();
+    left_out.join(", ")
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Error> {
@@ -131,7 +186,7 @@ fn at<E: std::fmt::Display>(path: &Path) -> impl Fn(E) -> Error {
     move |error| Error::Input(format!("{} {error}", path.display()))
 }
 
-fn print(named: &[(String, Errors)]) -> Result<(), Error> {
+fn print(Compared { named, left_out }: &Compared) -> Result<(), Error> {
     let longest = named.iter().map(|(name, _)| name.chars().count()).max();
     let width = longest.unwrap_or(0).max(12);
     say(&format!(
@@ -147,13 +202,22 @@ fn print(named: &[(String, Errors)]) -> Result<(), Error> {
             noise_percent: _,
         } = errors;
         say(&format!(
-            "{name:<width$}{rmse:>10.3}{bias:>+10.3}{:>10.3}{:>11.3}{:>11.3}{:>11.3}{values:>10}",
+            "{name:<width$} {rmse:>9.3} {bias:>+9.3} {:>9.3} {:>10.3} {:>10.3} {:>10.3} {values:>9}",
             p.p50, p.p90, p.p99, p.max
         ))?;
     }
-    let noise = named.last().and_then(|(_, all)| all.noise_percent);
-    let noise = noise.map_or_else(String::new, |noise| {
-        format!("; the reference's own noise is {noise:.3} %")
-    });
-    say(&format!("in percent of the mean of the reference{noise}"))
+    say("in percent of the mean of the reference")?;
+    if let Some((_, all)) = named.last()
+        && let Some(noise) = all.noise_percent
+    {
+        let without = all.rmse_percent_without_noise();
+        say(&format!(
+            "of all, the reference's own noise is {noise:.3} %: without it, the RMSE is {without:.3} %"
+        ))?;
+    }
+    if left_out.is_empty() {
+        Ok(())
+    } else {
+        say(&format!("left out: {left_out}"))
+    }
 }

@@ -12,13 +12,14 @@ use radiosity_geometry::{Divisions, subdivide};
 use radiosity_reference::{Tracer, cell_means};
 use radiosity_renderer::{Image, PictureFormat, ToneMap, encode, encode_pfm};
 use radiosity_scene::Scene;
+use radiosity_simd::InstructionSet;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// With fewer passes a pixel's standard error means nothing.
-const FEWEST_PASSES: u32 = 4;
+/// With fewer passes bright outliers, which are clamped, still hide most of the error.
+const FEWEST_PASSES: u32 = 16;
 /// What an interrupted run loses at most.
 const SAVE_INTERVAL: Duration = Duration::from_secs(10);
 
@@ -30,6 +31,8 @@ struct Json {
     /// Random walks per pixel or patch.
     walks: u32,
     seconds: f64,
+    /// By whose instructions rays were traced.
+    instruction_set: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     picture: Option<PictureReport>,
     /// How many rows the table has.
@@ -105,6 +108,7 @@ fn table(
         scene: scene.name.clone(),
         walks: args.spp,
         seconds,
+        instruction_set: InstructionSet::current().name(),
         picture: None,
         patches: Some(patches),
         outputs: BTreeMap::from([("table", path)]),
@@ -123,27 +127,7 @@ fn picture(
     let of_mesh = |error| Error::of_mesh(scene, &error);
     let mut tracer = Tracer::new(scene, camera, args.seed).map_err(of_mesh)?;
     let start = Instant::now();
-    let mut saved = start;
-    terminal.begin(Stage::Reference, u64::from(height));
-    let percent = loop {
-        tracer.pass(&|rows| terminal.advance(rows));
-        let percent = 100.0 * tracer.relative_error(scene.image.exposure);
-        let passes = tracer.samples() / tracer.samples_per_pass();
-        let expected = expected_passes(args, &tracer, start.elapsed().as_secs_f64(), percent);
-        if passes >= expected {
-            break percent;
-        }
-        let walks = tracer.samples();
-        terminal.update(
-            format!("{walks} walks per pixel, error {percent:.2} %"),
-            u64::from(expected) * u64::from(height),
-        );
-        if saved.elapsed() >= SAVE_INTERVAL {
-            save(scene, &tracer, folder)?;
-            saved = Instant::now();
-        }
-    };
-    terminal.end();
+    let percent = trace(args, scene, &mut tracer, folder, terminal)?;
     let outputs = save(scene, &tracer, folder)?;
     let seconds = start.elapsed().as_secs_f64();
     let rate = tracer.vertices() as f64 / seconds / rayon::current_num_threads() as f64;
@@ -157,6 +141,7 @@ fn picture(
         scene: scene.name.clone(),
         walks: tracer.samples(),
         seconds,
+        instruction_set: InstructionSet::current().name(),
         picture: Some(PictureReport {
             error_percent: percent,
             vertices: tracer.vertices(),
@@ -165,6 +150,40 @@ fn picture(
         patches: None,
         outputs,
     })
+}
+
+/// Adds passes until the picture is as good as was asked for, and saves it now and then; returns
+/// its estimated error in percent.
+fn trace(
+    args: &ReferenceCommand,
+    scene: &Scene,
+    tracer: &mut Tracer<'_>,
+    folder: &Path,
+    terminal: &Terminal,
+) -> Result<f64, Error> {
+    let start = Instant::now();
+    let mut saved = start;
+    let height = u64::from(scene.image.height);
+    terminal.begin(Stage::Reference, height);
+    loop {
+        tracer.pass(&|rows| terminal.advance(rows));
+        let percent = 100.0 * tracer.relative_error(scene.image.exposure);
+        let passes = tracer.samples() / tracer.samples_per_pass();
+        let expected = expected_passes(args, tracer, start.elapsed().as_secs_f64(), percent);
+        if passes >= expected {
+            terminal.end();
+            return Ok(percent);
+        }
+        let walks = tracer.samples();
+        terminal.update(
+            format!("{walks} walks per pixel, error {percent:.2} %"),
+            u64::from(expected) * height,
+        );
+        if saved.elapsed() >= SAVE_INTERVAL {
+            save(scene, tracer, folder)?;
+            saved = Instant::now();
+        }
+    }
 }
 
 /// How many passes the picture will have taken when it is done; no more than it has, if it is.
@@ -179,7 +198,8 @@ fn expected_passes(args: &ReferenceCommand, tracer: &Tracer<'_>, seconds: f64, e
     let least = if args.error.is_some() {
         FEWEST_PASSES
     } else {
-        1
+        // A standard error needs two samples.
+        2_u32.div_ceil(tracer.samples_per_pass())
     };
     let expected = if share >= 1.0 {
         passes

@@ -8,7 +8,7 @@ use super::cache_folder;
 use super::compare;
 use super::reference;
 use super::site::Site;
-use super::terminal::{Terminal, say};
+use super::terminal::{Terminal, say, tell};
 use crate::artifact::Sources;
 use crate::error::Error;
 use crate::export::radiosity_table;
@@ -17,6 +17,7 @@ use crate::report::{DisplayReport, Report, check_lines, needs_of};
 use radiosity_cache::{Store, replace_file};
 use radiosity_renderer::{Image, PictureFormat, Pictures, ToneMap, encode};
 use radiosity_scene::{ImageSettings, Scene};
+use radiosity_simd::InstructionSet;
 use radiosity_solver::Solution;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -25,6 +26,12 @@ use std::time::Instant;
 
 /// Runs a command and prints what it has to say; the exit code is 0, or that of the error.
 pub fn run(command: &Command, site: &Site) -> ExitCode {
+    if let Some(wish) = InstructionSet::unknown_wish() {
+        let best = InstructionSet::current().name();
+        tell(&format!(
+            "warning: RADIOSITY_SIMD is `{wish}`, which this machine does not have: {best} is used"
+        ));
+    }
     let result = match command {
         Command::Render(args) | Command::Display(args) => display(args, site),
         Command::FormFactors(args) => form_factors(args, site),
@@ -37,7 +44,7 @@ pub fn run(command: &Command, site: &Site) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("{error}");
+            tell(&error.to_string());
             ExitCode::from(error.exit_code())
         }
     }

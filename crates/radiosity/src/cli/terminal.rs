@@ -17,6 +17,11 @@ pub(crate) fn say(text: &str) -> Result<(), Error> {
     }
 }
 
+/// Prints a line on standard error, whether anybody reads it or not.
+pub(crate) fn tell(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{text}");
+}
+
 /// Shows progress on standard error if that is a terminal, and prints lines.
 pub(crate) struct Terminal {
     bar: Mutex<Option<ProgressBar>>,
