@@ -238,21 +238,14 @@ proptest! {
 /// A header may promise more than memory holds.
 #[test]
 fn huge_maps_are_refused_before_memory_is_taken() {
-    let grey = encode_grey(1, 1);
-    assert!(decode_regions(&grey).is_ok());
-    let error = decode_regions(&encode_grey(200_000, 200_000)).unwrap_err();
-    assert!(error.to_string().contains("too many"), "{error}");
-}
-
-/// The header and the one row of a grey picture that claims to be of some size.
-fn encode_grey(width: u32, height: u32) -> Vec<u8> {
     let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    let mut encoder = png::Encoder::new(&mut bytes, 200_000, 200_000);
     encoder.set_color(png::ColorType::Grayscale);
     let mut writer = encoder.write_header().unwrap();
-    let _ = writer.write_image_data(&[7]);
+    writer.write_chunk(png::chunk::IDAT, &[0]).unwrap();
     drop(writer);
-    bytes
+    let error = decode_regions(&bytes).unwrap_err();
+    assert!(error.to_string().contains("too many"), "{error}");
 }
 
 /// Most pixels are equal, few are not; the scale may be zero, and sums do not overflow.
