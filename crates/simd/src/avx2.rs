@@ -60,14 +60,14 @@ registers! {
     F32: f32, [__m256; 1],
     _mm256_loadu_ps, _mm256_storeu_ps, _mm256_set1_ps,
     _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_min_ps, _mm256_max_ps,
-    less_f32, less_or_equal_f32
+    less_f32, less_or_equal_f32, select_f32
 }
 
 registers! {
     F64: f64, [__m256d; 2],
     _mm256_loadu_pd, _mm256_storeu_pd, _mm256_set1_pd,
     _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_min_pd, _mm256_max_pd,
-    less_f64, less_or_equal_f64
+    less_f64, less_or_equal_f64, select_f64
 }
 
 macro_rules! compare {
@@ -109,3 +109,27 @@ compare!(
     _CMP_LE_OQ,
     _mm256_movemask_pd
 );
+
+/// Only where the processor has the instructions.
+#[inline(always)]
+unsafe fn select_f32(mask: u8, a: __m256, b: __m256) -> __m256 {
+    // SAFETY: the caller's.
+    unsafe {
+        let bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+        let set = _mm256_and_si256(_mm256_set1_epi32(i32::from(mask)), bits);
+        let chosen = _mm256_cmpeq_epi32(set, bits);
+        _mm256_blendv_ps(b, a, _mm256_castsi256_ps(chosen))
+    }
+}
+
+/// Only where the processor has the instructions; by the lowest four bits.
+#[inline(always)]
+unsafe fn select_f64(mask: u8, a: __m256d, b: __m256d) -> __m256d {
+    // SAFETY: the caller's.
+    unsafe {
+        let bits = _mm256_setr_epi64x(1, 2, 4, 8);
+        let set = _mm256_and_si256(_mm256_set1_epi64x(i64::from(mask)), bits);
+        let chosen = _mm256_cmpeq_epi64(set, bits);
+        _mm256_blendv_pd(b, a, _mm256_castsi256_pd(chosen))
+    }
+}

@@ -76,6 +76,8 @@ pub trait Float<T>:
     fn less(self, other: Self) -> u8;
     /// Where `self <= other`.
     fn less_or_equal(self, other: Self) -> u8;
+    /// Where `mask` has a bit, `self`, elsewhere `other`.
+    fn select(self, mask: u8, other: Self) -> Self;
     /// The lanes.
     fn lanes(self) -> [T; LANES];
 }

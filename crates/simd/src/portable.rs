@@ -110,6 +110,17 @@ where
     }
 
     #[inline(always)]
+    fn select(self, mask: u8, other: Array<T>) -> Array<T> {
+        Array(from_fn(|k| {
+            if mask >> k & 1 != 0 {
+                self.0[k]
+            } else {
+                other.0[k]
+            }
+        }))
+    }
+
+    #[inline(always)]
     fn lanes(self) -> [T; LANES] {
         self.0
     }

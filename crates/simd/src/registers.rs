@@ -7,7 +7,7 @@ macro_rules! registers {
         $name:ident: $scalar:ty, [$register:ty; $count:literal],
         $load:ident, $store:ident, $splat:ident,
         $add:ident, $sub:ident, $mul:ident, $div:ident, $min:ident, $max:ident,
-        $less:ident, $less_or_equal:ident
+        $less:ident, $less_or_equal:ident, $select:ident
     ) => {
         #[derive(Clone, Copy)]
         pub(crate) struct $name([$register; $count]);
@@ -69,6 +69,16 @@ macro_rules! registers {
 
             registers!(@compare $name, less, $less);
             registers!(@compare $name, less_or_equal, $less_or_equal);
+
+            #[inline(always)]
+            fn select(self, mask: u8, other: $name) -> $name {
+                let mut result = self.0;
+                for (k, (result, other)) in result.iter_mut().zip(other.0).enumerate() {
+                    // SAFETY: lanes exist only where the processor has the instructions.
+                    *result = unsafe { $select(mask >> (k * Self::WIDTH), *result, other) };
+                }
+                $name(result)
+            }
 
             #[inline(always)]
             fn lanes(self) -> [$scalar; LANES] {

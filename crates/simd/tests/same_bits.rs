@@ -3,6 +3,9 @@
 use proptest::prelude::*;
 use radiosity_simd::{Float, InstructionSet, Kernel, LANES, Simd};
 
+/// Lanes that a selection takes from its first operand.
+const SELECTED: u8 = 0b1011_0010;
+
 /// All operations on two vectors: the bits of the numbers, and the masks.
 struct Everything<T>([T; LANES], [T; LANES]);
 
@@ -17,6 +20,7 @@ macro_rules! everything {
                 let numbers = [a + b, a - b, a * b, a / b, -a, a.min(b), a.max(b)];
                 let mut results: Vec<_> = numbers.into_iter().map(Float::lanes).collect();
                 results.push(simd.$splat(self.0[3]).lanes());
+                results.push(a.select(SELECTED, b).lanes());
                 (results, [a.less(b), a.less_or_equal(b)])
             }
         }
@@ -39,6 +43,13 @@ macro_rules! everything {
                     each(|a, b| if a < b { a } else { b }),
                     each(|a, b| if a > b { a } else { b }),
                     [self.0[3]; LANES],
+                    std::array::from_fn(|k| {
+                        if SELECTED >> k & 1 != 0 {
+                            self.0[k]
+                        } else {
+                            self.1[k]
+                        }
+                    }),
                 ];
                 (numbers, [mask(|a, b| a < b), mask(|a, b| a <= b)])
             }
