@@ -7,6 +7,7 @@
 use crate::bounds::Aabb;
 use crate::build;
 use crate::ray::Ray;
+use crate::shaft::Shaft;
 use crate::slabs::{Boxes, Frame};
 use arrayvec::ArrayVec;
 use radiosity_simd::{LANES, Simd};
@@ -97,21 +98,19 @@ impl Bvh {
         }
     }
 
-    /// Calls `visit(leaf, lane)` for every item whose box overlaps `region`.
+    /// Calls `visit(leaf, lane)` for every item whose box reaches into a shaft.
     #[inline(always)]
     pub(crate) fn within<S: Simd>(
         &self,
         simd: S,
-        region: Aabb,
+        shaft: &Shaft,
         mut visit: impl FnMut(usize, usize) -> ControlFlow<()>,
     ) {
-        let mut boxes = Boxes::EMPTY;
-        boxes.set(0, region, &self.frame);
         let mut stack = ArrayVec::<Child, STACK>::new();
         stack.push(Child::ROOT);
         while let Some(child) = stack.pop() {
             if let Some(leaf) = child.leaf() {
-                for lane in bits(self.leaves[leaf].overlap(simd, &boxes)) {
+                for lane in bits(shaft.meets(simd, &self.leaves[leaf])) {
                     if visit(leaf, lane).is_break() {
                         return;
                     }
@@ -119,7 +118,7 @@ impl Bvh {
                 continue;
             }
             let node = &self.nodes[child.index()];
-            for lane in bits(node.boxes.overlap(simd, &boxes)) {
+            for lane in bits(shaft.meets(simd, &node.boxes)) {
                 stack.push(node.children[lane]);
             }
         }

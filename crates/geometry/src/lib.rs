@@ -28,6 +28,7 @@ mod polygon;
 mod polygon_mesh;
 mod queries;
 mod ray;
+mod shaft;
 mod shape;
 mod sight;
 mod slabs;

@@ -87,6 +87,11 @@ impl Occluders {
         }
     }
 
+    /// Heights over a plane up to this count as in it: the rounding of coordinates of this scene.
+    pub fn plane_tolerance(&self) -> f64 {
+        self.plane_tolerance
+    }
+
     /// The first face that a ray meets at a parameter in `from..=to`, other than `except`.
     ///
     /// Name the face that the ray leaves as `except`: rounding may put the origin on either

@@ -3,6 +3,7 @@
 use crate::mesh::FaceId;
 use crate::occluders::{Occluder, Occluders, ordered};
 use crate::polygon::Polygon;
+use crate::shaft::Shaft;
 use arrayvec::ArrayVec;
 use glam::DVec3;
 use radiosity_simd::{Kernel, Simd, dispatch};
@@ -13,31 +14,38 @@ use std::ops::ControlFlow;
 pub struct Sight<'a> {
     occluders: &'a Occluders,
     ends: [FaceId; 2],
-    between: Between,
+    /// All faces that can stand between, unless they are too many to list.
+    few: Option<FewFaces>,
 }
 
-#[derive(Clone, Debug)]
-enum Between {
-    Few(FewFaces),
-    /// Too many faces to list.
-    Anything,
-}
-
-/// Beyond this many candidates a tree is faster than a list.
-const FEW: usize = 12;
+/// So many candidates are listed.
+const FEW: usize = 64;
+/// For single segments a tree is faster than a longer list.
+const FASTER_THAN_TREE: usize = 12;
 type FewFaces = ArrayVec<u32, FEW>;
 
-impl Sight<'_> {
+impl<'a> Sight<'a> {
+    /// What can stand between parts of the two polygons.
+    pub fn narrowed(&self, from: &Polygon, to: &Polygon) -> Sight<'a> {
+        let [i, j] = self.ends;
+        self.occluders.sight(i, from, j, to)
+    }
+
+    /// All faces that can stand between, unless they are too many to list.
+    pub fn faces(&self) -> Option<&[u32]> {
+        self.few.as_deref()
+    }
+
     /// [`Occluders::blocked`] for a segment between points of the two polygons.
     pub fn blocked(&self, p: DVec3, q: DVec3) -> bool {
-        match &self.between {
-            Between::Few(few) => {
+        match &self.few {
+            Some(few) if few.len() <= FASTER_THAN_TREE => {
                 let [p, q] = ordered(p, q);
                 let tolerance = self.occluders.plane_tolerance;
                 let face = |&face: &u32| &self.occluders.faces[face as usize];
                 few.iter().any(|f| face(f).cuts(p, q, tolerance))
             }
-            Between::Anything => {
+            _ => {
                 let [i, j] = self.ends;
                 self.occluders.blocked(i, p, j, q)
             }
@@ -49,13 +57,13 @@ impl Occluders {
     /// Collects what may block segments from a polygon in front of face `i` to face `j`.
     ///
     /// `from` is a part of face `i`, `to` a part of face `j`. Neither face counts, nor does
-    /// anything outside the box around both polygons, behind either plane, or with both
+    /// anything outside the shaft between the boxes of both polygons, behind either plane, or with both
     /// polygons on one side of it; rounding counts as on the plane.
     pub fn sight(&self, i: FaceId, from: &Polygon, j: FaceId, to: &Polygon) -> Sight<'_> {
         Sight {
             occluders: self,
             ends: [i, j],
-            between: dispatch(Collect {
+            few: dispatch(Collect {
                 occluders: self,
                 ends: [i, j],
                 polygons: [from, to],
@@ -71,16 +79,17 @@ struct Collect<'a> {
 }
 
 impl Kernel for Collect<'_> {
-    type Output = Between;
+    type Output = Option<FewFaces>;
 
     #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> Between {
+    fn run<S: Simd>(self, simd: S) -> Option<FewFaces> {
         let [from, to] = self.polygons;
-        let shaft = from.bounds().union(to.bounds());
+        let frame = &self.occluders.tree.frame;
+        let shaft = Shaft::new(from.bounds(), to.bounds(), frame);
         let mut few = FewFaces::new();
         let mut crowded = false;
         let occluders = self.occluders;
-        occluders.tree.within(simd, shaft, |leaf, lane| {
+        occluders.tree.within(simd, &shaft, |leaf, lane| {
             let face = occluders.blocks[leaf].face(lane);
             crowded = self.may_block(face) && few.try_push(face).is_err();
             if crowded {
@@ -89,11 +98,7 @@ impl Kernel for Collect<'_> {
                 ControlFlow::Continue(())
             }
         });
-        if crowded {
-            Between::Anything
-        } else {
-            Between::Few(few)
-        }
+        (!crowded).then_some(few)
     }
 }
 

@@ -22,8 +22,9 @@ const RELATIVE_ERROR: f32 = 1e-6;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     scene: Aabb,
-    center: DVec3,
-    padding: f64,
+    pub(crate) center: DVec3,
+    /// The longest edge of the scene.
+    pub(crate) extent: f64,
 }
 
 /// Eight boxes: the minima by axis, then the maxima.
@@ -51,7 +52,7 @@ impl Frame {
         Frame {
             scene,
             center: scene.center(),
-            padding: PADDING * scene.extent().max_element(),
+            extent: scene.extent().max_element(),
         }
     }
 
@@ -85,12 +86,18 @@ impl Boxes {
 
     /// Puts a box in a lane, rounded outwards.
     pub(crate) fn set(&mut self, lane: usize, bounds: Aabb, frame: &Frame) {
-        let bounds = bounds.grown(frame.padding);
+        let bounds = bounds.grown(PADDING * frame.extent);
         self.used |= 1 << lane;
         for k in 0..3 {
             self.sides[k][lane] = (bounds.min[k] - frame.center[k]) as f32;
             self.sides[k + 3][lane] = (bounds.max[k] - frame.center[k]) as f32;
         }
+    }
+
+    /// One side of all boxes: minima by axis, then maxima.
+    #[inline(always)]
+    pub(crate) fn side(&self, side: usize) -> &[f32; LANES] {
+        &self.sides[side]
     }
 
     /// Which boxes the ray enters before `limit`, one bit each, and where.
