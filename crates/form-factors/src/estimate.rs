@@ -3,13 +3,16 @@
 //! Rows are independent and are filled in parallel; each entry depends on its pair alone, so
 //! the result is the same for any number of threads.
 
+use crate::accurate::{Accurate, Exchange};
 use crate::exchange::all_pairs;
-use crate::monte_carlo::MonteCarlo;
+use crate::fixed::FixedSums;
+use crate::monte_carlo::{MonteCarlo, Strata};
 use crate::points::{Sample, regular};
 use crate::{Estimator, FormFactors};
-use radiosity_geometry::{DVec3, Face, FaceId, Mesh, Occluders, Patch, Polygon, Sight};
+use radiosity_geometry::{DVec3, Face, FaceId, Mesh, Occluders, Patch, Polygon};
 use radiosity_matrix::{SymmetricMatrix, packed_len, packed_row, row_blocks_mut};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Rows per task.
 const BLOCK_ROWS: usize = 8;
@@ -24,10 +27,16 @@ pub fn estimate(mesh: &Mesh, estimator: Estimator, progress: &(dyn Fn(u64) + Syn
 pub struct Estimation<'a> {
     mesh: &'a Mesh,
     occluders: Occluders,
-    estimator: Estimator,
-    /// The regular points of each patch; empty for the other estimator.
-    points: Vec<Vec<Sample>>,
+    method: Method<'a>,
     scale: f64,
+}
+
+/// The estimator with what it prepares.
+enum Method<'a> {
+    /// The regular points of each patch.
+    Regular(Vec<Vec<Sample>>),
+    MonteCarlo(MonteCarlo),
+    Accurate(Accurate<'a>),
 }
 
 /// Neighbouring pairs that a rehearsal takes together, as rows do.
@@ -36,19 +45,25 @@ const REHEARSED_RUN: usize = 16;
 impl<'a> Estimation<'a> {
     /// Prepares what every pair needs.
     pub fn new(mesh: &'a Mesh, estimator: Estimator) -> Estimation<'a> {
-        let points = match estimator {
-            Estimator::Regular { points } => mesh
-                .patches
-                .iter()
-                .map(|patch| regular(&patch.polygon, points))
-                .collect(),
-            Estimator::MonteCarlo { .. } => Vec::new(),
+        let occluders = Occluders::new(mesh);
+        let method = match estimator {
+            Estimator::Regular { points } => {
+                let patches = mesh.patches.iter();
+                Method::Regular(patches.map(|p| regular(&p.polygon, points)).collect())
+            }
+            Estimator::MonteCarlo {
+                points,
+                pairs,
+                seed,
+            } => Method::MonteCarlo(MonteCarlo::new(points, pairs, seed)),
+            Estimator::Accurate { tolerance } => {
+                Method::Accurate(Accurate::new(mesh, tolerance, occluders.plane_tolerance()))
+            }
         };
         Estimation {
             mesh,
-            occluders: Occluders::new(mesh),
-            estimator,
-            points,
+            occluders,
+            method,
             scale: 1.0 / mesh.total_area(),
         }
     }
@@ -65,12 +80,11 @@ impl<'a> Estimation<'a> {
             let end = self.mesh.faces[face_j.index()].patches().end;
             let run = j..end.min(j + REHEARSED_RUN);
             let length = run.len() as u64;
-            let other_face = face_j != self.mesh.patches[i].face;
-            if let Some(sight) = other_face.then(|| self.sight(i, face_j)).flatten() {
-                let monte_carlo = &mut self.monte_carlo();
-                let sum: f32 = run.map(|j| self.exchange(i, j, &sight, monte_carlo)).sum();
-                std::hint::black_box(sum);
+            let mut sum = 0.0;
+            if face_j != self.mesh.patches[i].face {
+                self.pairs(i, face_j, run, |_, exchange| sum += exchange.value);
             }
+            std::hint::black_box(sum);
             length
         };
         let mut done = 0;
@@ -87,75 +101,78 @@ impl<'a> Estimation<'a> {
     pub fn run(&self, progress: &(dyn Fn(u64) + Sync)) -> FormFactors {
         let size = self.mesh.patches.len();
         let mut values = vec![0.0; packed_len(size)];
+        let errors = FixedSums::new(size);
         row_blocks_mut(size, &mut values, BLOCK_ROWS)
             .into_par_iter()
             .for_each(|(rows, block)| {
-                let mut monte_carlo = self.monte_carlo();
                 let first = packed_len(rows.start);
                 for i in rows {
                     let range = packed_row(i);
                     let row = &mut block[range.start - first..range.end - first];
-                    self.row(i, row, &mut monte_carlo);
+                    self.row(i, row, &errors);
                     progress(i as u64);
                 }
             });
         let areas = self.mesh.patches.iter().map(|patch| patch.area).collect();
         let exchange = SymmetricMatrix::new(size, values).expect("one value per pair was made");
-        FormFactors::new(areas, exchange)
+        let errors = match self.method {
+            Method::Accurate(_) => Some(errors.into_sums()),
+            Method::Regular(_) | Method::MonteCarlo(_) => None,
+        };
+        FormFactors::new(areas, exchange, errors.as_deref())
     }
 
-    fn monte_carlo(&self) -> Option<MonteCarlo> {
-        match self.estimator {
-            Estimator::Regular { .. } => None,
-            Estimator::MonteCarlo {
-                points,
-                pairs,
-                seed,
-            } => Some(MonteCarlo::new(points, pairs, seed)),
-        }
-    }
-
-    /// Fills the zeroed entries `(i, 0 .. i)`, face by face.
-    fn row(&self, i: usize, row: &mut [f32], monte_carlo: &mut Option<MonteCarlo>) {
+    /// Fills the zeroed entries `(i, 0 .. i)`, face by face, and adds their errors, in units of
+    /// the total area, to those of both patches.
+    fn row(&self, i: usize, row: &mut [f32], errors: &FixedSums) {
         let own_face = self.mesh.patches[i].face.index();
         for (index, face) in self.mesh.faces[..own_face].iter().enumerate() {
-            let id = FaceId(index as u32);
-            if let Some(sight) = self.sight(i, id) {
-                for j in face.patches() {
-                    row[j] = self.exchange(i, j, &sight, monte_carlo);
-                }
-            }
+            self.pairs(i, FaceId(index as u32), face.patches(), |j, exchange| {
+                row[j] = (exchange.value * self.scale) as f32;
+                errors.add(i, exchange.error * self.scale);
+                errors.add(j, exchange.error * self.scale);
+            });
         }
     }
 
-    /// What may stand between a patch and another face; `None` if they cannot see each other.
-    fn sight(&self, i: usize, face_id: FaceId) -> Option<Sight<'_>> {
-        let (patch, face) = (&self.mesh.patches[i], &self.mesh.faces[face_id.index()]);
-        face_each_other(patch, face).then(|| {
-            self.occluders
-                .sight(patch.face, &patch.polygon, face_id, &face.polygon)
-        })
-    }
-
-    /// `S_ij` in units of the total area.
-    fn exchange(
+    /// Estimates the exchange of patch `i` with some patches of another face; tells those that
+    /// may not be zero.
+    fn pairs(
         &self,
         i: usize,
-        j: usize,
-        sight: &Sight<'_>,
-        monte_carlo: &mut Option<MonteCarlo>,
-    ) -> f32 {
-        let (patch_i, patch_j) = (&self.mesh.patches[i], &self.mesh.patches[j]);
+        face_id: FaceId,
+        patches: Range<usize>,
+        mut tell: impl FnMut(usize, Exchange),
+    ) {
+        let (patch, face) = (&self.mesh.patches[i], &self.mesh.faces[face_id.index()]);
+        if !face_each_other(patch, face) {
+            return;
+        }
+        let occluders = &self.occluders;
+        let sight = occluders.sight(patch.face, &patch.polygon, face_id, &face.polygon);
         let visible = |p: DVec3, q: DVec3| !sight.blocked(p, q);
-        let exchange = match monte_carlo {
-            None => all_pairs(
-                (&self.points[i], patch_i.normal),
-                (&self.points[j], patch_j.normal),
-                visible,
-            ),
-            Some(monte_carlo) => monte_carlo.estimate((i, patch_i), (j, patch_j), visible),
-        };
-        (exchange * self.scale) as f32
+        let plain = |value: f64| Exchange { value, error: 0.0 };
+        match &self.method {
+            Method::Regular(points) => {
+                for j in patches {
+                    let of_i = (&points[i][..], patch.normal);
+                    let of_j = (&points[j][..], face.normal);
+                    tell(j, plain(all_pairs(of_i, of_j, visible)));
+                }
+            }
+            Method::MonteCarlo(monte_carlo) => {
+                let mut strata = Strata::default();
+                for j in patches {
+                    let of_j = (j, &self.mesh.patches[j]);
+                    let value = monte_carlo.estimate((i, patch), of_j, &mut strata, visible);
+                    tell(j, plain(value));
+                }
+            }
+            Method::Accurate(accurate) => {
+                let between = accurate.between(i, &sight);
+                patches.for_each(|j| tell(j, accurate.exchange(i, j, &between)));
+            }
+        }
     }
 }
 

@@ -18,10 +18,22 @@
 //! This crate knows nothing of materials, emission, cameras or names, so changing those cannot
 //! invalidate what it computed.
 
+mod accurate;
+mod blocker;
+mod contour;
+mod element;
 mod estimate;
 mod exchange;
+mod fixed;
+mod gauss;
+mod lines;
 mod monte_carlo;
 mod points;
+mod random;
+mod segments;
+mod target;
+mod unoccluded;
+mod visible;
 
 use radiosity_matrix::SymmetricMatrix;
 use serde::{Deserialize, Serialize};
@@ -33,7 +45,7 @@ pub use estimate::{Estimation, estimate};
 pub const VERSION: u32 = 1;
 
 /// How the double integral of a pair is sampled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Estimator {
     /// The regular rule: `points x points` fixed points on each patch, all pairs of them.
     ///
@@ -62,14 +74,24 @@ pub enum Estimator {
         /// Seed of all random numbers.
         seed: u64,
     },
+    /// The unoccluded exchange, by the contour integral or, far away, by Gauss's rule, times the
+    /// visible share of the pair, measured where something stands between in part.
+    Accurate {
+        /// The aimed sum over a row of the absolute errors of its factors.
+        tolerance: f64,
+    },
 }
 
+/// What a pair of patches costs the accurate estimator, in pairs of points.
+const TYPICAL_POINT_PAIRS: u64 = 100;
+
 impl Estimator {
-    /// How many pairs of points are drawn for each pair of patches.
+    /// About how many pairs of points are drawn for each pair of patches.
     pub fn point_pairs(&self) -> u64 {
         match *self {
             Estimator::Regular { points } => u64::from(points).pow(4),
             Estimator::MonteCarlo { pairs, .. } => u64::from(pairs),
+            Estimator::Accurate { .. } => TYPICAL_POINT_PAIRS,
         }
     }
 }
@@ -81,6 +103,8 @@ pub struct RowFacts {
     /// fronts of other patches. The rest arrives at backs or leaves the scene; more than 1 is
     /// an error of the estimator.
     pub fronts: f64,
+    /// The estimated sum of the absolute errors of the row's factors, if the estimator tells.
+    pub error: Option<f64>,
 }
 
 /// The form factors of all pairs.
@@ -95,15 +119,16 @@ pub struct FormFactors {
 }
 
 impl FormFactors {
-    /// Completes areas and matrix by the facts that follow from them.
-    pub fn new(areas: Vec<f64>, exchange: SymmetricMatrix) -> FormFactors {
+    /// Completes areas and matrix by the facts that follow from them. `errors` are those of the
+    /// rows of `S`, in units of the total area.
+    pub fn new(areas: Vec<f64>, exchange: SymmetricMatrix, errors: Option<&[f64]>) -> FormFactors {
         let total: f64 = areas.iter().sum();
         let sums = exchange.row_sums();
-        let rows = std::iter::zip(sums, &areas)
-            .map(|(sum, area)| RowFacts {
-                fronts: sum * total / area,
-            })
-            .collect();
+        let row = |(index, (sum, area)): (usize, (f64, &f64))| RowFacts {
+            fronts: sum * total / area,
+            error: errors.map(|errors| errors[index] * total / area),
+        };
+        let rows = std::iter::zip(sums, &areas).enumerate().map(row).collect();
         FormFactors {
             areas,
             exchange,

@@ -408,7 +408,8 @@ fn thread_counts_leave_no_trace() {
         pairs: 6,
         seed: 3,
     };
-    for estimator in [Estimator::Regular { points: 2 }, monte_carlo] {
+    let accurate = Estimator::Accurate { tolerance: 1e-3 };
+    for estimator in [Estimator::Regular { points: 2 }, monte_carlo, accurate] {
         let with = |threads| {
             let pool = rayon::ThreadPoolBuilder::new()
                 .num_threads(threads)

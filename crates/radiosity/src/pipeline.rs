@@ -60,7 +60,7 @@ const SOLUTION: &str = "solution";
 const SOLVER_STEPS: u64 = 100;
 /// Raise it whenever the layout of what is stored beside an array changes ([`RowFacts`],
 /// [`Convergence`], [`RowSummary`]): it is part of every key.
-const FACTS_VERSION: u32 = 1;
+const FACTS_VERSION: u32 = 2;
 
 impl<'a> Pipeline<'a> {
     /// Stage 1: cuts the scene into patches.
@@ -204,6 +204,7 @@ impl<'a> Pipeline<'a> {
         match self.scene.form_factors.mode {
             Mode::Regular => "the regular rule overestimates patches that touch",
             Mode::MonteCarlo => "the variance is unbounded where patches touch; more --pairs help",
+            Mode::Accurate => "a smaller --tolerance helps",
         }
     }
 

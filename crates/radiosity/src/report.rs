@@ -53,6 +53,13 @@ struct FormFactorReport {
     row_sum_mean: f64,
     /// The largest |row sum - 1|; in open scenes no error.
     row_sum_max_error: f64,
+    /// Of all rows, the mean estimated sum of the absolute errors of their factors, if the
+    /// estimator tells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    row_error_mean: Option<f64>,
+    /// The largest of them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    row_error_max: Option<f64>,
 }
 
 #[derive(Debug, Serialize)]
@@ -106,7 +113,12 @@ impl<'a> Report<'a> {
         pipeline: &Pipeline<'_>,
     ) {
         self.stage_line("form factors", origin);
-        let more = format!("rows sum to {:.4} on average", rows.mean);
+        let errors = rows
+            .estimated_error
+            .map_or_else(String::new, |(mean, worst)| {
+                format!("; their factors' errors to an estimated {mean:.1e}, {worst:.1e} at worst")
+            });
+        let more = format!("rows sum to {:.4} on average{errors}", rows.mean);
         self.terminal.line(&indented(&more));
         if rows.excessive > 0 {
             let patches = pipeline.mesh().patches.len() as u64;
@@ -125,6 +137,8 @@ impl<'a> Report<'a> {
             reason: origin.reason().map(str::to_owned),
             row_sum_mean: rows.mean,
             row_sum_max_error: rows.max_error,
+            row_error_mean: rows.estimated_error.map(|(mean, _)| mean),
+            row_error_max: rows.estimated_error.map(|(_, worst)| worst),
         });
     }
 

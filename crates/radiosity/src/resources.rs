@@ -21,6 +21,8 @@ pub(crate) struct Needs {
 const BYTES_PER_PATCH: u64 = 2048;
 /// A point with the area it stands for.
 const BYTES_PER_POINT: u64 = 32;
+/// What the accurate estimator stores of a patch, in points.
+const ACCURATE_POINTS: u64 = 26;
 /// Two linear images, and one of them shown and encoded.
 const BYTES_PER_PIXEL: u64 = 2 * 12 + 3 + 12;
 /// The share of the free memory that a run may take.
@@ -33,6 +35,7 @@ impl Needs {
         let stored_points = match estimator {
             Estimator::Regular { points } => u64::from(points).pow(2),
             Estimator::MonteCarlo { .. } => 0,
+            Estimator::Accurate { .. } => ACCURATE_POINTS,
         };
         let per_patch = BYTES_PER_PATCH + BYTES_PER_POINT * stored_points;
         Needs {

@@ -15,6 +15,8 @@ pub struct RowSummary {
     pub excessive: u64,
     /// The largest row sum, and its patch.
     pub largest: (f64, u64),
+    /// The mean and the largest of the rows' estimated errors, if the estimator tells.
+    pub estimated_error: Option<(f64, f64)>,
 }
 
 /// Row sums above this are worth a warning.
@@ -35,6 +37,17 @@ impl RowSummary {
             max_error: sums().map(|sum| (sum - 1.0).abs()).fold(0.0, f64::max),
             excessive: sums().filter(|&sum| sum > EXCESSIVE).count() as u64,
             largest,
+            estimated_error: estimated_error(rows),
         }
     }
+}
+
+fn estimated_error(rows: &[RowFacts]) -> Option<(f64, f64)> {
+    let errors: Option<Vec<f64>> = rows.iter().map(|row| row.error).collect();
+    let errors = errors?;
+    let sum: f64 = errors.iter().sum();
+    Some((
+        sum / errors.len() as f64,
+        errors.into_iter().fold(0.0, f64::max),
+    ))
 }

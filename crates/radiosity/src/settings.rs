@@ -15,6 +15,9 @@ pub(crate) fn estimator(scene: &Scene) -> Estimator {
             pairs: settings.pairs.unwrap_or(points * points),
             seed: settings.seed,
         },
+        Mode::Accurate => Estimator::Accurate {
+            tolerance: settings.tolerance,
+        },
     }
 }
 

@@ -111,7 +111,7 @@ fn flags_override_the_scene() {
         16 + 1 + 4 + 2 * 2 + 2 * 4,
         "meshes are cut by length too"
     );
-    let loose = place.json("solve room.toml --no-cache --tolerance 0.1 --max-sweeps 1");
+    let loose = place.json("solve room.toml --no-cache --residual 0.1 --max-sweeps 1");
     assert_eq!(loose["stages"]["solve"]["sweeps"], 1);
 }
 

@@ -54,6 +54,9 @@ pub struct EstimateArgs {
     /// Pairs of points per pair of patches, for monte-carlo [default: points^2]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub pairs: Option<u32>,
+    /// Aimed error of accurate: the sum over a row of |error of F_ij|, 1e-6 to 0.1
+    #[arg(long, value_name = "X", value_parser = parse_row_tolerance, allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
     /// Seed of the random points of monte-carlo
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
@@ -85,7 +88,7 @@ pub struct CacheArgs {
 pub struct SolveArgs {
     /// Relative residual at which the solver stops
     #[arg(long, value_name = "X", value_parser = parse_tolerance, allow_negative_numbers = true)]
-    pub tolerance: Option<f64>,
+    pub residual: Option<f64>,
     /// Most Gauss-Seidel sweeps to take
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub max_sweeps: Option<u32>,
@@ -302,6 +305,9 @@ pub enum CacheAction {
 pub enum ModeArg {
     /// Fixed points on each patch, all pairs of them
     Regular,
+    /// Exact where nothing stands between two patches, times their visible share where something
+    /// does, to a --tolerance
+    Accurate,
     /// Random points; its variance is unbounded where patches touch, so it needs many pairs
     /// there, or the solution may not exist
     MonteCarlo,
@@ -344,12 +350,17 @@ impl EstimateArgs {
         let mode = self.mode.map(|mode| match mode {
             ModeArg::Regular => Mode::Regular,
             ModeArg::MonteCarlo => Mode::MonteCarlo,
+            ModeArg::Accurate => Mode::Accurate,
         });
         set(&mut settings.mode, mode);
         set(&mut settings.points, self.points);
         set(&mut settings.seed, self.seed);
+        set(&mut settings.tolerance, self.tolerance);
         settings.pairs = self.pairs.or(settings.pairs);
-        if settings.mode == Mode::Regular && (self.pairs.is_some() || self.seed.is_some()) {
+        if self.tolerance.is_some() && settings.mode != Mode::Accurate {
+            eprintln!("warning: --tolerance is for --mode accurate, and changes nothing");
+        }
+        if settings.mode != Mode::MonteCarlo && (self.pairs.is_some() || self.seed.is_some()) {
             eprintln!("warning: --pairs and --seed are for --mode monte-carlo, and change nothing");
         }
     }
@@ -357,7 +368,7 @@ impl EstimateArgs {
 
 impl SolveArgs {
     pub(crate) fn apply(&self, scene: &mut Scene) {
-        set(&mut scene.solver.tolerance, self.tolerance);
+        set(&mut scene.solver.tolerance, self.residual);
         set(&mut scene.solver.max_sweeps, self.max_sweeps);
     }
 }
@@ -416,6 +427,13 @@ fn parse_positive(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(x) if x > 0.0 && f64::is_finite(x) => Ok(x),
         _ => Err("expected a positive number".to_owned()),
+    }
+}
+
+fn parse_row_tolerance(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(tolerance) if (1e-6..=0.1).contains(&tolerance) => Ok(tolerance),
+        _ => Err("must be a number from 1e-6 to 0.1".to_owned()),
     }
 }
 

@@ -1,0 +1,171 @@
+//! The accurate estimator of one pair: *classify* it (hidden, clear, or partly hidden), *integrate*
+//! the unoccluded kernel, *measure* the visible share where there is doubt.
+
+use crate::blocker::{Blocker, Effect, Heights};
+use crate::element::Element;
+use crate::lines::{Lines, MOST_BLOCKERS};
+use crate::random::Stream;
+use crate::segments::{Blocked, Segments};
+use crate::target::Target;
+use crate::unoccluded;
+use crate::visible::{Sampler, Share, share};
+use radiosity_geometry::{Mesh, Sight};
+
+/// The share of a row's tolerance that the unoccluded exchange may use up.
+const UNOCCLUDED_SHARE: f64 = 0.02;
+/// How many of a row's patches are partly hidden, as one in so many: the rest of the tolerance is
+/// theirs. Rows with more of them have a larger error, and say so.
+const PARTLY_HIDDEN_ONE_IN: f64 = 10.0;
+/// Seed of all shifts.
+const SEED: u64 = 0;
+
+/// Patches, ready for the accurate estimator.
+pub(crate) struct Accurate<'a> {
+    mesh: &'a Mesh,
+    elements: Vec<Element>,
+    targets: Vec<Target>,
+    tolerance: f64,
+    plane_tolerance: f64,
+}
+
+/// What may stand between a patch and a face.
+pub(crate) enum Between<'a> {
+    /// The faces, with the heights of the patch's corners.
+    Few(Vec<(Blocker, Heights)>),
+    /// Too many to list.
+    Many(&'a Sight<'a>),
+}
+
+/// What stands between two patches.
+enum Verdict<'a> {
+    Hidden,
+    Clear,
+    /// These may hide a part.
+    Partly(Vec<Blocker>),
+    /// Anything may.
+    Unknown(&'a Sight<'a>),
+}
+
+/// `S_ij` and its standard error.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Exchange {
+    pub(crate) value: f64,
+    pub(crate) error: f64,
+}
+
+impl<'a> Accurate<'a> {
+    pub(crate) fn new(mesh: &'a Mesh, tolerance: f64, plane_tolerance: f64) -> Accurate<'a> {
+        Accurate {
+            mesh,
+            elements: mesh.patches.iter().map(Element::new).collect(),
+            targets: mesh.patches.iter().map(Target::new).collect(),
+            tolerance,
+            plane_tolerance,
+        }
+    }
+
+    pub(crate) fn between<'s>(&self, i: usize, sight: &'s Sight<'s>) -> Between<'s> {
+        let few = sight.faces().map(|faces| self.blockers(i, faces));
+        few.map_or(Between::Many(sight), Between::Few)
+    }
+
+    /// The exchange of a pair of patches.
+    pub(crate) fn exchange(&self, i: usize, j: usize, between: &Between<'_>) -> Exchange {
+        let verdict = self.classify(i, j, between);
+        if let Verdict::Hidden = verdict {
+            return Exchange::default();
+        }
+        let error = UNOCCLUDED_SHARE * self.tolerance;
+        let (element_i, element_j) = (&self.elements[i], &self.elements[j]);
+        let clear = unoccluded::exchange(element_i, element_j, error, self.plane_tolerance);
+        let share = match &verdict {
+            _ if clear == 0.0 => Share::ALL,
+            Verdict::Hidden | Verdict::Clear => Share::ALL,
+            Verdict::Partly(blockers) => self.past(i, j, blockers, clear),
+            Verdict::Unknown(sight) => self.among(i, j, Blocked::Somehow(sight), clear),
+        };
+        Exchange {
+            value: share.value * clear,
+            error: (share.error + error) * clear,
+        }
+    }
+
+    fn classify<'s>(&self, i: usize, j: usize, between: &Between<'s>) -> Verdict<'s> {
+        match between {
+            Between::Few(few) => self.judge(j, few),
+            Between::Many(sight) => {
+                let [from, to] = [i, j].map(|k| &self.mesh.patches[k].polygon);
+                match sight.narrowed(from, to).faces() {
+                    Some(faces) => self.judge(j, &self.blockers(i, faces)),
+                    None => Verdict::Unknown(sight),
+                }
+            }
+        }
+    }
+
+    /// Blockers, with the heights of a patch's corners.
+    fn blockers(&self, i: usize, faces: &[u32]) -> Vec<(Blocker, Heights)> {
+        let corners = self.mesh.patches[i].polygon.padded_corners();
+        let blocker = |face: &u32| {
+            let blocker = Blocker::new(&self.mesh.faces[*face as usize]);
+            (blocker, blocker.heights(corners))
+        };
+        faces.iter().map(blocker).collect()
+    }
+
+    fn judge(&self, j: usize, few: &[(Blocker, Heights)]) -> Verdict<'static> {
+        let corners = self.mesh.patches[j].polygon.padded_corners();
+        let mut partly = Vec::new();
+        for (blocker, at_i) in few {
+            match at_i.effect(&blocker.heights(corners), self.plane_tolerance) {
+                Effect::Hides => return Verdict::Hidden,
+                Effect::Partly => partly.push(*blocker),
+                Effect::Nothing => {}
+            }
+        }
+        if partly.is_empty() {
+            Verdict::Clear
+        } else {
+            Verdict::Partly(partly)
+        }
+    }
+
+    /// The visible share past a few blockers: by lines across the larger patch, unless the two
+    /// are too near for that.
+    fn past(&self, i: usize, j: usize, blockers: &[Blocker], clear: f64) -> Share {
+        let (a, b) = (&self.elements[i], &self.elements[j]);
+        let far = a.radius + b.radius < a.centroid.distance(b.centroid);
+        if !far || blockers.len() > MOST_BLOCKERS {
+            return self.among(i, j, Blocked::By(blockers), clear);
+        }
+        let (from, across) = if self.area(i) < self.area(j) {
+            (i, j)
+        } else {
+            (j, i)
+        };
+        let lines = Lines {
+            from: &self.targets[from],
+            across: &self.targets[across],
+            blockers,
+        };
+        self.share(i, j, &lines, clear)
+    }
+
+    /// The visible share among any blockers.
+    fn among(&self, i: usize, j: usize, blocked: Blocked<'_>, clear: f64) -> Share {
+        let targets = [&self.targets[i], &self.targets[j]];
+        self.share(i, j, &Segments { targets, blocked }, clear)
+    }
+
+    /// The visible share to the pair's part of the tolerance.
+    fn share(&self, i: usize, j: usize, sampler: &impl Sampler, clear: f64) -> Share {
+        let smaller = self.area(i).min(self.area(j));
+        let pairs = self.mesh.patches.len() as f64 / PARTLY_HIDDEN_ONE_IN;
+        let wanted = smaller * self.tolerance / pairs.max(1.0) / clear;
+        share(sampler, Stream::of_pair(SEED, i, j), wanted)
+    }
+
+    fn area(&self, patch: usize) -> f64 {
+        self.mesh.patches[patch].area
+    }
+}

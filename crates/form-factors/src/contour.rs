@@ -1,0 +1,160 @@
+//! The unoccluded exchange of two polygons as an integral along their contours.
+//!
+//! For polygons wholly in front of each other, Stokes' theorem gives (Sparrow, "A New and Simpler
+//! Formulation for Radiative Angle Factors", 1963; Cohen & Wallace, eq. 4.17)
+//!
+//! ```text
+//! S = 1 / (2 pi)  sum over edges a of i, b of j:  (t_a . t_b)  int_a int_b  ln r  ds dt
+//! ```
+//!
+//! with unit tangents `t`. It holds for polygons that touch, where the area integral is singular.
+//! Parallel edges, and with them all rectangles in a room of rectangles, are integrated in closed
+//! form; others in closed form along one edge and by Gauss's rule along the other.
+
+use crate::gauss;
+use libm::{atan, log};
+use radiosity_geometry::DVec3;
+use std::f64::consts::TAU;
+
+/// Edges are parallel if the sine of their angle is below this: they then part by less than
+/// coordinates are rounded.
+const PARALLEL: f64 = 1e-12;
+/// Edges of this cosine or less contribute nothing.
+const PERPENDICULAR: f64 = 1e-15;
+/// How often an edge is halved where it meets another. The integrand's derivative grows as a
+/// logarithm there, so the last part's error is some 1e-5 of its length squared.
+const MOST_HALVINGS: u32 = 12;
+
+/// An edge of a contour.
+#[derive(Clone, Copy)]
+struct Edge {
+    start: DVec3,
+    tangent: DVec3,
+    length: f64,
+}
+
+/// `S = A_i F_ij` of two polygons, each wholly in front of the other: the corners of each,
+/// counter-clockwise seen from its front.
+pub(crate) fn exchange(i: &[DVec3], j: &[DVec3]) -> f64 {
+    // Any constant may be taken from the logarithm, as contours are closed: one that makes it
+    // small keeps the rounding small.
+    let unit = 1.0 / i[0].distance_squared(j[0]).max(i[0].distance_squared(i[1]));
+    let mut sum = 0.0;
+    for a in edges(i) {
+        for b in edges(j) {
+            let cosine = a.tangent.dot(b.tangent);
+            if cosine.abs() <= PERPENDICULAR {
+                continue;
+            }
+            let integral = if a.tangent.cross(b.tangent).length() < PARALLEL {
+                parallel(&a, &b, unit)
+            } else if a.length < b.length {
+                skew(&a, &b, unit)
+            } else {
+                skew(&b, &a, unit)
+            };
+            sum += cosine * integral;
+        }
+    }
+    sum / TAU
+}
+
+fn edges(corners: &[DVec3]) -> impl Iterator<Item = Edge> {
+    let edge = |k: usize| {
+        let (start, end) = (corners[k], corners[(k + 1) % corners.len()]);
+        let length = start.distance(end);
+        Edge {
+            start,
+            tangent: (end - start) / length,
+            length,
+        }
+    };
+    // The repeated corner of a triangle makes an edge without length.
+    (0..corners.len())
+        .map(edge)
+        .filter(|edge| edge.length > 0.0)
+}
+
+/// `int int ln(r sqrt(unit))` over two parallel edges, by the second antiderivative of
+/// `ln(x^2 + d^2) / 2`.
+fn parallel(a: &Edge, b: &Edge, unit: f64) -> f64 {
+    let offset = a.start - b.start;
+    let squared = offset.cross(b.tangent).length_squared();
+    let distance = squared.sqrt();
+    let start = offset.dot(b.tangent);
+    let end = (a.start + a.length * a.tangent - b.start).dot(b.tangent);
+    let (low, high) = (start.min(end), start.max(end));
+    let second = |x: f64| {
+        let r = x * x + squared;
+        if r == 0.0 {
+            return 0.0;
+        }
+        let angle = if distance > 0.0 {
+            2.0 * distance * x * atan(x / distance)
+        } else {
+            0.0
+        };
+        0.5 * (0.5 * (x * x - squared) * log(r * unit) + angle - 1.5 * x * x)
+    };
+    second(high) - second(low) - second(high - b.length) + second(low - b.length)
+}
+
+/// The same over two edges at an angle: by Gauss's rule along `outer`.
+fn skew(outer: &Edge, inner: &Edge, unit: f64) -> f64 {
+    let mut parts = vec![(0.0, outer.length, 0)];
+    let mut sum = 0.0;
+    while let Some((from, to, halvings)) = parts.pop() {
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let point = |s: f64| outer.start + s * outer.tangent;
+        // In the complex plane of s no singularity is nearer to the middle than the inner edge
+        // is to that point, which bounds the error of Gauss's rule (Trefethen, "Is Gauss
+        // Quadrature Better than Clenshaw-Curtis?", 2008).
+        let clearance = distance(point(middle), inner) / half;
+        let points = if clearance >= 8.0 {
+            4
+        } else if clearance >= 4.0 {
+            5
+        } else if clearance >= 2.0 || halvings == MOST_HALVINGS {
+            8
+        } else {
+            parts.push((from, middle, halvings + 1));
+            parts.push((middle, to, halvings + 1));
+            continue;
+        };
+        for &(x, weight) in gauss::rule(points) {
+            sum += 2.0 * half * weight * along(point(from + 2.0 * half * x), inner, unit);
+        }
+    }
+    sum
+}
+
+/// `int ln(r sqrt(unit))` from a point along an edge.
+fn along(point: DVec3, edge: &Edge, unit: f64) -> f64 {
+    let offset = point - edge.start;
+    let foot = offset.dot(edge.tangent);
+    let squared = offset.cross(edge.tangent).length_squared();
+    let distance = squared.sqrt();
+    let first = |x: f64| {
+        let r = x * x + squared;
+        if r == 0.0 {
+            return 0.0;
+        }
+        let angle = if distance > 0.0 {
+            2.0 * distance * atan(x / distance)
+        } else {
+            0.0
+        };
+        0.5 * (x * log(r * unit) + angle) - x
+    };
+    first(edge.length - foot) - first(-foot)
+}
+
+/// From a point to the nearest point of an edge.
+fn distance(point: DVec3, edge: &Edge) -> f64 {
+    let offset = point - edge.start;
+    let along = offset.dot(edge.tangent).clamp(0.0, edge.length);
+    (offset - along * edge.tangent).length()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,128 @@
+//! Points on patches, eight at a time.
+
+use crate::blocker::Plane;
+use radiosity_geometry::{DVec3, Patch, Polygon};
+use radiosity_simd::{Float, LANES, Simd};
+
+/// A patch as points are drawn from it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Target {
+    corner: DVec3,
+    edges: [DVec3; 2],
+    /// What makes a quad no parallelogram.
+    twist: DVec3,
+    /// The Jacobian: at the corner, and what it grows along either edge.
+    jacobian: [f64; 3],
+    pub(crate) is_triangle: bool,
+    normal: DVec3,
+}
+
+/// Points, one per lane, and the area that each stands for.
+pub(crate) struct Points<F> {
+    pub(crate) x: F,
+    pub(crate) y: F,
+    pub(crate) z: F,
+    pub(crate) area: F,
+}
+
+impl<F: Float<f64>> Points<F> {
+    #[inline(always)]
+    pub(crate) fn lanes(&self) -> [DVec3; LANES] {
+        let (x, y, z) = (self.x.lanes(), self.y.lanes(), self.z.lanes());
+        std::array::from_fn(|lane| DVec3::new(x[lane], y[lane], z[lane]))
+    }
+}
+
+impl Target {
+    pub(crate) fn new(patch: &Patch) -> Target {
+        let [a, b, c, d] = *patch.polygon.padded_corners();
+        let is_triangle = patch.polygon.is_triangle();
+        let (second, twist) = if is_triangle {
+            (c - a, DVec3::ZERO)
+        } else {
+            (d - a, a - b + c - d)
+        };
+        let at = |u: f64, v: f64| jacobian(&patch.polygon, u, v);
+        Target {
+            corner: a,
+            edges: [b - a, second],
+            twist,
+            jacobian: [
+                at(0.0, 0.0),
+                at(1.0, 0.0) - at(0.0, 0.0),
+                at(0.0, 1.0) - at(0.0, 0.0),
+            ],
+            is_triangle,
+            normal: patch.normal,
+        }
+    }
+}
+
+/// Area per parameter, constant on triangles, linear on planar quads.
+fn jacobian(polygon: &Polygon, u: f64, v: f64) -> f64 {
+    if polygon.is_triangle() {
+        1.0
+    } else {
+        polygon.bilinear_jacobian(u, v)
+    }
+}
+
+/// The points of a patch with these parameters, uniform in the unit square: on triangles those
+/// beyond the diagonal are folded back.
+#[inline(always)]
+pub(crate) fn points<S: Simd>(simd: S, target: &Target, u: S::F64, v: S::F64) -> Points<S::F64> {
+    if !target.is_triangle {
+        return at(simd, target, u, v);
+    }
+    let one = simd.splat_f64(1.0);
+    let beyond = one.less(u + v);
+    let (u, v) = ((one - u).select(beyond, u), (one - v).select(beyond, v));
+    at(simd, target, u, v)
+}
+
+/// The points of a patch with these parameters.
+#[inline(always)]
+pub(crate) fn at<S: Simd>(simd: S, target: &Target, u: S::F64, v: S::F64) -> Points<S::F64> {
+    let uv = u * v;
+    let [a, b] = target.edges;
+    let [at_corner, along_u, along_v] = target.jacobian;
+    let axis = |k: usize| [target.corner[k], a[k], b[k], target.twist[k]];
+    Points {
+        x: bilinear(simd, axis(0), u, v, uv),
+        y: bilinear(simd, axis(1), u, v, uv),
+        z: bilinear(simd, axis(2), u, v, uv),
+        area: bilinear(simd, [at_corner, along_u, along_v, 0.0], u, v, uv),
+    }
+}
+
+#[inline(always)]
+fn bilinear<S: Simd>(simd: S, [c, a, b, d]: [f64; 4], u: S::F64, v: S::F64, uv: S::F64) -> S::F64 {
+    simd.splat_f64(c) + u * simd.splat_f64(a) + v * simd.splat_f64(b) + uv * simd.splat_f64(d)
+}
+
+/// The kernel of the form factor but for a constant.
+#[inline(always)]
+pub(crate) fn kernel<S: Simd>(
+    simd: S,
+    (i, p): (&Target, &Points<S::F64>),
+    (j, q): (&Target, &Points<S::F64>),
+) -> S::F64 {
+    let (x, y, z) = (q.x - p.x, q.y - p.y, q.z - p.z);
+    let zero = simd.splat_f64(0.0);
+    let height_of_q = dot(simd, i.normal, x, y, z).max(zero);
+    let height_of_p = (-dot(simd, j.normal, x, y, z)).max(zero);
+    let squared = x * x + y * y + z * z;
+    let product = height_of_q * height_of_p;
+    // Where points coincide nothing is divided by nothing.
+    (product / (squared * squared)).select(zero.less(product), zero)
+}
+
+#[inline(always)]
+fn dot<S: Simd>(simd: S, n: DVec3, x: S::F64, y: S::F64, z: S::F64) -> S::F64 {
+    simd.splat_f64(n.x) * x + simd.splat_f64(n.y) * y + simd.splat_f64(n.z) * z
+}
+
+#[inline(always)]
+pub(crate) fn height<S: Simd>(simd: S, plane: &Plane, p: &Points<S::F64>) -> S::F64 {
+    dot(simd, plane.normal, p.x, p.y, p.z) - simd.splat_f64(plane.offset)
+}

@@ -1,0 +1,114 @@
+//! The visible share of a pair of patches: the mean of `V`, weighted by the kernel.
+//!
+//! Samples are those of an embedded lattice, shifted at random: eight shifts, one per lane, whose
+//! scatter tells the error (Cranley & Patterson, "Randomization of Number Theoretic Methods for
+//! Multiple Integration", 1976).
+
+use crate::random::Stream;
+use radiosity_simd::{Float, LANES, Simd};
+use std::ops::Range;
+
+/// Samples under each shift to begin with, and at most.
+const FEWEST: usize = 8;
+const MOST: usize = 4096;
+
+/// A share with its standard error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Share {
+    pub(crate) value: f64,
+    pub(crate) error: f64,
+}
+
+impl Share {
+    pub(crate) const ALL: Share = Share {
+        value: 1.0,
+        error: 0.0,
+    };
+}
+
+/// By shift: the sums of the kernel, and of the kernel where there is a view.
+#[derive(Default)]
+pub(crate) struct Sums {
+    pub(crate) all: [f64; LANES],
+    pub(crate) visible: [f64; LANES],
+}
+
+/// A random shift of each coordinate, for each lane.
+pub(crate) type Shifts = [[f64; LANES]; 4];
+
+/// A way to sample a pair of patches.
+pub(crate) trait Sampler {
+    /// What is seen by less than one in `n` samples has less than the `n`-th part of the whole
+    /// to this power.
+    const UNSEEN_POWER: f64;
+
+    /// Adds some samples of the sequence to the sums.
+    fn add(&self, samples: Range<usize>, shifts: &Shifts, sums: &mut Sums);
+}
+
+/// The visible share of two patches, sampled until its standard error is at most `wanted`, or
+/// 32,768 samples have been taken.
+pub(crate) fn share(sampler: &impl Sampler, stream: Stream, wanted: f64) -> Share {
+    let shifts = shifts(stream);
+    let mut sums = Sums::default();
+    let mut samples = 0..FEWEST;
+    loop {
+        sampler.add(samples.clone(), &shifts, &mut sums);
+        let share = sums.share(samples.end, sampler);
+        if share.error <= wanted || samples.end == MOST {
+            return share;
+        }
+        samples = samples.end..2 * samples.end;
+    }
+}
+
+pub(crate) fn shifts(mut stream: Stream) -> Shifts {
+    std::array::from_fn(|_| std::array::from_fn(|_| stream.uniform()))
+}
+
+impl Sums {
+    fn share<T: Sampler>(&self, samples: usize, _: &T) -> Share {
+        let sum = |lanes: &[f64; LANES]| lanes.iter().sum::<f64>();
+        let all = sum(&self.all);
+        if all <= 0.0 {
+            return Share {
+                value: 0.0,
+                error: 0.0,
+            };
+        }
+        let value = sum(&self.visible) / all;
+        let residual = |lane: usize| (self.visible[lane] - value * self.all[lane]).powi(2);
+        let squares: f64 = (0..LANES).map(residual).sum();
+        let lanes = LANES as f64;
+        let scatter = (lanes * squares / (lanes - 1.0)).sqrt() / all;
+        let unseen = libm::pow(lanes * samples as f64, -T::UNSEEN_POWER);
+        Share {
+            // Parabolas through three values of the kernel may dip below zero.
+            value: value.clamp(0.0, 1.0),
+            error: scatter.max(unseen),
+        }
+    }
+}
+
+/// Generates a lattice in the order of van der Corput, so that every power of two of its points
+/// is a lattice too (Cools, Kuo & Nuyens, "Constructing Embedded Lattice Rules for Multivariate
+/// Integration", 2006).
+const GENERATOR: [u32; 4] = [1, 182_667, 469_891, 498_753];
+
+/// A coordinate of the `k`-th point of the lattice under each shift.
+#[inline(always)]
+pub(crate) fn coordinate<S: Simd>(simd: S, k: usize, c: usize, shifts: &Shifts) -> S::F64 {
+    // Integers multiply modulo 1.
+    let turns = (k as u32).reverse_bits().wrapping_mul(GENERATOR[c]);
+    let fixed = f64::from(turns) / (1u64 << u32::BITS) as f64;
+    let one = simd.splat_f64(1.0);
+    let x = simd.splat_f64(fixed) + simd.f64(&shifts[c]);
+    let x = x.select(x.less(one), x - one);
+    // Folded, the integrand is as good as periodic (Hickernell, "Obtaining O(N^-2+e) Convergence
+    // for Lattice Quadrature Rules", 2002).
+    let twice = x + x;
+    twice.min(one + one - twice)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,177 @@
+use super::*;
+use crate::blocker::Blocker;
+use crate::exchange;
+use crate::lines::{self, Lines};
+use crate::segments::{self, Blocked, Segments};
+use crate::target::Target;
+use radiosity_geometry::{DVec3, Divisions, Mesh, Occluders, Shape, Surface, subdivide};
+use radiosity_simd::InstructionSet;
+
+/// A trapezoid and a triangle that face each other, and two things between them.
+fn scene() -> Mesh {
+    let p = DVec3::new;
+    let shapes = [
+        Shape::Quad([
+            p(0.0, 0.0, 0.0),
+            p(3.0, 0.0, 0.0),
+            p(2.0, 2.0, 0.0),
+            p(0.5, 2.0, 0.0),
+        ]),
+        Shape::Triangle([p(0.0, 0.0, 4.0), p(0.3, 3.0, 4.5), p(3.0, 0.5, 3.5)]),
+        Shape::Triangle([p(0.5, -1.0, 2.0), p(2.0, 1.0, 2.2), p(0.0, 2.0, 1.9)]),
+        Shape::Quad([
+            p(1.5, 1.5, 1.0),
+            p(3.0, 1.5, 1.0),
+            p(3.0, 3.0, 1.0),
+            p(1.5, 3.0, 1.0),
+        ]),
+    ];
+    let surfaces = shapes.map(|shape| Surface {
+        shape,
+        divisions: None,
+    });
+    subdivide(&surfaces, Divisions::uniform(1)).unwrap()
+}
+
+fn targets(mesh: &Mesh) -> [Target; 2] {
+    [0, 1].map(|k: usize| Target::new(&mesh.patches[k]))
+}
+
+fn blockers(mesh: &Mesh) -> Vec<Blocker> {
+    mesh.faces[2..].iter().map(Blocker::new).collect()
+}
+
+/// The sums over some segments, on an instruction set.
+fn sums(set: InstructionSet, blocked: Blocked<'_>, samples: usize) -> Sums {
+    let [i, j] = targets(&scene());
+    let mut sums = Sums::default();
+    set.run(segments::Measure {
+        segments: &Segments {
+            targets: [&i, &j],
+            blocked,
+        },
+        shifts: &shifts(Stream::of_pair(0, 0, 1)),
+        samples: 0..samples,
+        sums: &mut sums,
+    });
+    sums
+}
+
+/// The sums over some lines across either patch, on an instruction set.
+fn line_sums(set: InstructionSet, samples: usize, across: usize) -> Sums {
+    let mesh = scene();
+    let targets = targets(&mesh);
+    let mut sums = Sums::default();
+    set.run(lines::Measure {
+        lines: &Lines {
+            from: &targets[1 - across],
+            across: &targets[across],
+            blockers: &blockers(&mesh),
+        },
+        shifts: &shifts(Stream::of_pair(0, 0, 1)),
+        samples: 0..samples,
+        sums: &mut sums,
+    });
+    sums
+}
+
+#[test]
+fn all_instruction_sets_give_the_same_bits() {
+    let blockers = blockers(&scene());
+    let run = |set| {
+        let segments = sums(set, Blocked::By(&blockers), 100);
+        let lines = line_sums(set, 100, 1);
+        [segments.all, segments.visible, lines.all, lines.visible]
+    };
+    let portable = InstructionSet::available().pop().unwrap();
+    for set in InstructionSet::available() {
+        assert_eq!(run(set), run(portable), "{}", set.name());
+    }
+}
+
+/// Faces that are listed block what the tree of all faces says is blocked.
+#[test]
+fn lists_and_trees_agree() {
+    let mesh = scene();
+    let occluders = Occluders::new(&mesh);
+    let polygons = [0, 1].map(|k: usize| &mesh.patches[k].polygon);
+    let faces = [0, 1].map(|k: usize| mesh.patches[k].face);
+    let sight = occluders.sight(faces[0], polygons[0], faces[1], polygons[1]);
+    assert_eq!(sight.faces().unwrap().len(), 2);
+    let set = InstructionSet::current();
+    let listed = sums(set, Blocked::By(&blockers(&mesh)), 500);
+    let traced = sums(set, Blocked::Somehow(&sight), 500);
+    assert_eq!(listed.visible, traced.visible);
+}
+
+/// Lines across a triangle or a trapezoid find the share that segments find, within both errors
+/// and what a parabola leaves of the kernel.
+#[test]
+fn lines_and_segments_agree() {
+    let mesh = scene();
+    let [i, j] = targets(&mesh);
+    let blockers = blockers(&mesh);
+    let stream = || Stream::of_pair(0, 0, 1);
+    let segments = Segments {
+        targets: [&i, &j],
+        blocked: Blocked::By(&blockers),
+    };
+    let expected = share(&segments, stream(), 0.0);
+    for (from, across) in [(&i, &j), (&j, &i)] {
+        let lines = Lines {
+            from,
+            across,
+            blockers: &blockers,
+        };
+        let found = share(&lines, stream(), 0.0);
+        assert!(found.error < 0.5 * expected.error);
+        let error = 4.0 * (found.error + expected.error) + 1e-3;
+        assert!(
+            (found.value - expected.value).abs() < error,
+            "{found:?} {expected:?}"
+        );
+    }
+}
+
+/// The mean of the kernel over the points is the unoccluded exchange, on a trapezoid and on a
+/// triangle: points and weights are uniform in area. Their error is known from the shifts.
+#[test]
+fn points_are_uniform() {
+    let mesh = scene();
+    let points = 4096;
+    let found = sums(InstructionSet::current(), Blocked::By(&[]), points);
+    assert_eq!(found.all, found.visible);
+    let [i, j] = [0, 1].map(|k: usize| &mesh.patches[k]);
+    let corners = |k: usize| mesh.patches[k].polygon.corners();
+    let exact = crate::contour::exchange(corners(0), corners(1));
+    // On triangles the Jacobian is left out.
+    let scale = j.area / (std::f64::consts::PI * points as f64);
+    for sum in found.all {
+        assert!((scale * sum / exact - 1.0).abs() < 1e-3, "{sum}");
+    }
+    let kernel = exchange::kernel(i.centroid, i.normal, j.centroid, j.normal);
+    assert!((exact / (i.area * j.area * kernel) - 1.0).abs() < 0.2);
+}
+
+/// More points, a smaller error; never less than one in all points.
+#[test]
+fn errors_are_as_small_as_wanted() {
+    let mesh = scene();
+    let [i, j] = targets(&mesh);
+    let blockers = blockers(&mesh);
+    let measure = |wanted| {
+        let segments = Segments {
+            targets: [&i, &j],
+            blocked: Blocked::By(&blockers),
+        };
+        share(&segments, Stream::of_pair(0, 0, 1), wanted)
+    };
+    let fine = measure(0.0);
+    for wanted in [0.1, 0.01, 0.003] {
+        let rough = measure(wanted);
+        assert!(rough.error <= wanted);
+        assert!((rough.value - fine.value).abs() < 4.0 * wanted);
+    }
+    assert!((0.1..0.9).contains(&fine.value));
+    assert!(fine.error >= 1.0 / (LANES * MOST) as f64);
+}

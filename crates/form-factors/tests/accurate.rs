@@ -1,0 +1,259 @@
+//! The accurate estimator against exact form factors.
+
+use radiosity_form_factors::{Estimator, FormFactors, estimate};
+use radiosity_geometry::{DVec3, Divisions, Mesh, Shape, Surface, subdivide};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use std::path::{Path, PathBuf};
+
+fn accurate(mesh: &Mesh, tolerance: f64) -> FormFactors {
+    estimate(mesh, Estimator::Accurate { tolerance }, &|_| ())
+}
+
+fn mesh_of(shapes: impl IntoIterator<Item = Shape>) -> Mesh {
+    let surface = |shape| Surface {
+        shape,
+        divisions: None,
+    };
+    let surfaces: Vec<Surface> = shapes.into_iter().map(surface).collect();
+    subdivide(&surfaces, Divisions::uniform(1)).unwrap()
+}
+
+/// The exact form factors of a closed box of 313 rectangles with a cuboid in it: see
+/// `tests/data/README.md`.
+struct Box313 {
+    shapes: Vec<Shape>,
+    /// Row by row.
+    exact: Vec<f32>,
+}
+
+const ELEMENTS: usize = 313;
+
+fn data(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../tests/data/box313")
+        .join(name)
+}
+
+impl Box313 {
+    fn load() -> Box313 {
+        let text = std::fs::read_to_string(data("polygons.csv")).unwrap();
+        let quad = |line: &str| {
+            let numbers: Vec<f64> = line.split(',').map(|n| n.parse().unwrap()).collect();
+            let corner = |k: usize| DVec3::from_slice(&numbers[2 + 3 * k..]);
+            Shape::Quad([corner(0), corner(1), corner(2), corner(3)])
+        };
+        let bytes = std::fs::read(data("form-factors.npy")).unwrap();
+        let values = &bytes[bytes.len() - 4 * ELEMENTS * ELEMENTS..];
+        Box313 {
+            shapes: text.lines().skip(1).map(quad).collect(),
+            exact: values
+                .as_chunks::<4>()
+                .0
+                .iter()
+                .map(|&b| f32::from_le_bytes(b))
+                .collect(),
+        }
+    }
+}
+
+/// Row by row: factors, row sums, and the estimated errors of rows.
+struct Found {
+    factors: Vec<f64>,
+    sums: Vec<f64>,
+    errors: Vec<f64>,
+}
+
+/// Factors between elements that are made of `parts` patches each: areas of parts are equal, so a
+/// factor is the mean over the parts of one of the sums over the parts of the other.
+fn aggregated(found: &FormFactors, elements: usize, parts: usize) -> Found {
+    let mean = |i: usize, of: &dyn Fn(usize) -> f64| {
+        (parts * i..parts * (i + 1)).map(of).sum::<f64>() / parts as f64
+    };
+    let factor = |i: usize, j: usize| {
+        let columns = parts * j..parts * (j + 1);
+        mean(i, &|a| columns.clone().map(|b| found.factor(a, b)).sum())
+    };
+    let pairs = (0..elements).flat_map(|i| (0..elements).map(move |j| (i, j)));
+    Found {
+        factors: pairs.map(|(i, j)| factor(i, j)).collect(),
+        sums: (0..elements)
+            .map(|i| mean(i, &|a| found.rows[a].fronts))
+            .collect(),
+        errors: (0..elements)
+            .map(|i| mean(i, &|a| found.rows[a].error.unwrap()))
+            .collect(),
+    }
+}
+
+/// How good the factors of the box are.
+#[derive(Debug)]
+struct Quality {
+    rms: f64,
+    mean_row_sum_error: f64,
+    /// The share of rows whose summed errors are below twice their estimate.
+    within: f64,
+    /// The median of what rows are off over what they say.
+    median_ratio: f64,
+}
+
+impl Box313 {
+    fn judge(&self, found: &Found) -> Quality {
+        let errors = found.factors.iter().zip(&self.exact);
+        let errors: Vec<f64> = errors
+            .map(|(f, &exact)| (f - f64::from(exact)).abs())
+            .collect();
+        let mut ratios: Vec<f64> = errors
+            .chunks(ELEMENTS)
+            .zip(&found.errors)
+            .map(|(row, estimate)| row.iter().sum::<f64>() / estimate)
+            .collect();
+        ratios.sort_by(f64::total_cmp);
+        let rows = ELEMENTS as f64;
+        let within = ratios.iter().filter(|&&ratio| ratio < 2.0).count() as f64;
+        Quality {
+            rms: errors.iter().map(|e| e * e).sum::<f64>().sqrt() / rows,
+            mean_row_sum_error: found.sums.iter().map(|s| (s - 1.0).abs()).sum::<f64>() / rows,
+            within: within / rows,
+            median_ratio: ratios[ELEMENTS / 2],
+        }
+    }
+}
+
+/// The reference is exact to 3e-7. The limits are those of the best tool known: 3.7e-6 and 6e-5.
+#[test]
+fn a_box_with_a_cuboid() {
+    let room = Box313::load();
+    let mesh = mesh_of(room.shapes.clone());
+    for (tolerance, rms, row_sums) in [(3e-4, 3e-6, 4e-5), (3e-5, 1e-6, 1.5e-5)] {
+        let found = aggregated(&accurate(&mesh, tolerance), ELEMENTS, 1);
+        let quality = room.judge(&found);
+        println!("{tolerance:.0e}: {quality:?}");
+        assert!(quality.rms < rms);
+        assert!(quality.mean_row_sum_error < row_sums);
+        assert!(quality.within > 0.95 && quality.median_ratio > 0.2);
+        assert!(found.factors.iter().all(|f| (0.0..=1.0).contains(f)));
+    }
+}
+
+/// The same box of triangles: errors of parts average out in their sums, and so they stay within
+/// what the parts say.
+#[test]
+fn a_box_of_triangles() {
+    let room = Box313::load();
+    let halves = room.shapes.iter().flat_map(|shape| {
+        let Shape::Quad([a, b, c, d]) = *shape else {
+            panic!("all are quads")
+        };
+        [Shape::Triangle([a, b, c]), Shape::Triangle([a, c, d])]
+    });
+    let found = accurate(&mesh_of(halves), 3e-4);
+    let quality = room.judge(&aggregated(&found, ELEMENTS, 2));
+    println!("{quality:?}");
+    assert!(quality.rms < 3e-6);
+    assert!(quality.mean_row_sum_error < 4e-5);
+    assert!(quality.within > 0.95 && quality.median_ratio > 0.2);
+}
+
+/// Closed forms, with touching squares among them, to the digits that are published. Storage in
+/// single precision rounds by 6e-8.
+#[test]
+fn pairs_with_closed_forms() {
+    let square = |z: f64, edge: f64, up: bool| {
+        let corner = DVec3::new(-0.5 * edge, -0.5 * edge, z);
+        let (x, y) = (edge * DVec3::X, edge * DVec3::Y);
+        let (edge_a, edge_b) = if up { (x, y) } else { (y, x) };
+        Shape::Parallelogram {
+            corner,
+            edge_a,
+            edge_b,
+        }
+    };
+    let hinged = |degrees: f64| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let leaf = |edge_a, edge_b| Shape::Parallelogram {
+            corner: DVec3::ZERO,
+            edge_a,
+            edge_b,
+        };
+        [
+            leaf(DVec3::X, DVec3::Y),
+            leaf(DVec3::Y, DVec3::new(cos, 0.0, sin)),
+        ]
+    };
+    let cases = [
+        (
+            [square(0.0, 1.0, true), square(1.0, 1.0, false)],
+            0.199_824_896,
+        ),
+        (
+            [square(0.0, 1.0, true), square(1.0, 2.0, false)],
+            0.517_653_080,
+        ),
+        (
+            [square(0.0, 1.0, true), square(0.1, 1.0, false)],
+            0.826_994_522,
+        ),
+        (
+            [square(0.0, 1.0, true), square(10.0, 1.0, false)],
+            0.003_162_057,
+        ),
+        (hinged(90.0), 0.200_043_776),
+        (hinged(30.0), 0.619_028),
+    ];
+    for (pair, exact) in cases {
+        let found = accurate(&mesh_of(pair), 1e-4).factor(0, 1);
+        assert!((found - exact).abs() < 1e-6, "{exact}: {found}");
+    }
+}
+
+/// Over random scenes rows know their errors.
+#[test]
+fn rows_know_their_errors() {
+    let (mut within, mut ratios) = (0, Vec::new());
+    for seed in 0..200 {
+        let mesh = mesh_of(random_scene(seed));
+        let (rough, fine) = (accurate(&mesh, 1e-2), accurate(&mesh, 1e-5));
+        for i in 0..mesh.patches.len() {
+            let difference = |j: usize| (rough.factor(i, j) - fine.factor(i, j)).abs();
+            let error: f64 = (0..mesh.patches.len()).map(difference).sum();
+            let estimate = rough.rows[i].error.unwrap();
+            if estimate > 0.0 {
+                within += usize::from(error <= 2.0 * estimate);
+                ratios.push(error / estimate);
+            }
+        }
+    }
+    ratios.sort_by(f64::total_cmp);
+    let share = within as f64 / ratios.len() as f64;
+    let median = ratios[ratios.len() / 2];
+    println!(
+        "{} rows: {:.1} % within twice their estimate, median ratio {median:.2}",
+        ratios.len(),
+        100.0 * share
+    );
+    assert!(share > 0.95, "{share}");
+    assert!(median > 0.2, "{median}");
+}
+
+/// Triangles and parallelograms in a room's worth of space, none of them special.
+fn random_scene(seed: u64) -> Vec<Shape> {
+    let mut rng = Pcg64Mcg::seed_from_u64(seed);
+    let mut vector = |size: f64| {
+        let mut coordinate = || size * (rng.random::<f64>() - 0.5);
+        DVec3::new(coordinate(), coordinate(), coordinate())
+    };
+    let shape = |k: u32| {
+        let (corner, edge_a, edge_b) = (vector(4.0), vector(3.0), vector(3.0));
+        if k.is_multiple_of(2) {
+            Shape::Triangle([corner, corner + edge_a, corner + edge_b])
+        } else {
+            Shape::Parallelogram {
+                corner,
+                edge_a,
+                edge_b,
+            }
+        }
+    };
+    (0..16).map(shape).collect()
+}
