@@ -46,6 +46,38 @@ fn accurate_rows_close() {
     assert!(worst < 3e-3);
 }
 
+/// In an open scene, and under and above things, fronts, backs and the background account for all
+/// that a patch sees: rays and factors agree within their errors, and on average.
+#[test]
+fn rows_account_for_everything() {
+    let mut scene = shipped("cornell");
+    scene.form_factors.mode = Mode::Accurate;
+    scene.form_factors.tolerance = 1e-3;
+    let pipeline = pipeline(&scene);
+    let made = pipeline.form_factors(Sources::Cached).unwrap();
+    let rows = made.form_factors.rows;
+    let (mut within, mut sum, mut variance) = (0, 0.0, 0.0);
+    for row in &rows {
+        let difference = row.fronts + row.backs + row.background - 1.0;
+        let error = row.rays_error + row.error.unwrap();
+        within += usize::from(difference.abs() <= 3.0 * error + 1e-4);
+        sum += difference;
+        variance += row.rays_error.powi(2);
+    }
+    let count = rows.len() as f64;
+    let (mean, noise) = (sum / count, variance.sqrt() / count);
+    println!("mean of fronts + backs + background - 1: {mean:+.2e} +- {noise:.1e}");
+    println!("{within} of {} rows within three errors", rows.len());
+    // Eight shifts know their scatter to a quarter: more than one in 370 may be out.
+    assert!(within as f64 > 0.97 * count);
+    assert!(mean.abs() < 4.0 * noise + 1e-4);
+    assert!(rows.iter().any(|row| row.backs > 0.9), "above the lamp");
+    assert!(
+        rows.iter().any(|row| row.background > 0.1),
+        "at the opening"
+    );
+}
+
 /// The mean and the largest |row sum - 1| over patches of `cornell-closed` that see no backs.
 fn row_sum_errors(scene: &Scene) -> (f64, f64) {
     let pipeline = pipeline(scene);

@@ -3,18 +3,18 @@
 
 use crate::blocker::{Blocker, Effect, Heights};
 use crate::element::Element;
-use crate::lines::{Lines, MOST_BLOCKERS};
+use crate::lines::{self, Lines, MOST_BLOCKERS};
 use crate::random::Stream;
 use crate::segments::{Blocked, Segments};
 use crate::target::Target;
 use crate::unoccluded;
-use crate::visible::{Sampler, Share, share};
+use crate::visible::{Share, share};
 use radiosity_geometry::{Mesh, Sight};
 
 /// The share of a row's tolerance that the unoccluded exchange may use up.
 const UNOCCLUDED_SHARE: f64 = 0.02;
-/// How many of a row's patches are partly hidden, as one in so many: the rest of the tolerance is
-/// theirs. Rows with more of them have a larger error, and say so.
+/// How many of a row's patches are partly hidden, as one in so many: the tolerance is shared among
+/// them. Rows with more of them have a larger error, and say so.
 const PARTLY_HIDDEN_ONE_IN: f64 = 10.0;
 /// Seed of all shifts.
 const SEED: u64 = 0;
@@ -77,7 +77,8 @@ impl<'a> Accurate<'a> {
         }
         let error = UNOCCLUDED_SHARE * self.tolerance;
         let (element_i, element_j) = (&self.elements[i], &self.elements[j]);
-        let clear = unoccluded::exchange(element_i, element_j, error, self.plane_tolerance);
+        let unoccluded = unoccluded::exchange(element_i, element_j, error, self.plane_tolerance);
+        let clear = unoccluded.value;
         let share = match &verdict {
             _ if clear == 0.0 => Share::ALL,
             Verdict::Hidden | Verdict::Clear => Share::ALL,
@@ -86,7 +87,7 @@ impl<'a> Accurate<'a> {
         };
         Exchange {
             value: share.value * clear,
-            error: (share.error + error) * clear,
+            error: share.error * clear + unoccluded.error,
         }
     }
 
@@ -130,39 +131,48 @@ impl<'a> Accurate<'a> {
         }
     }
 
-    /// The visible share past a few blockers: by lines across the larger patch, unless the two
-    /// are too near for that.
+    /// The visible share past a few blockers: by lines across the larger patch, where those are
+    /// exact enough.
     fn past(&self, i: usize, j: usize, blockers: &[Blocker], clear: f64) -> Share {
-        let (a, b) = (&self.elements[i], &self.elements[j]);
-        let far = a.radius + b.radius < a.centroid.distance(b.centroid);
-        if !far || blockers.len() > MOST_BLOCKERS {
-            return self.among(i, j, Blocked::By(blockers), clear);
-        }
         let (from, across) = if self.area(i) < self.area(j) {
             (i, j)
         } else {
             (j, i)
         };
+        let (a, b) = (&self.elements[from], &self.elements[across]);
+        let bias = lines::bias(b.radius / a.centroid.distance(b.centroid));
+        let wanted = self.wanted(i, j, clear);
+        // Where either plane cuts the other patch the kernel is no parabola.
+        let whole =
+            a.faces_whole(b, self.plane_tolerance) && b.faces_whole(a, self.plane_tolerance);
+        if !whole || bias > 0.5 * wanted || blockers.len() > MOST_BLOCKERS {
+            return self.among(i, j, Blocked::By(blockers), clear);
+        }
         let lines = Lines {
             from: &self.targets[from],
             across: &self.targets[across],
             blockers,
         };
-        self.share(i, j, &lines, clear)
+        let Share { value, error } = share(&lines, Stream::of_pair(SEED, i, j), wanted - bias);
+        Share {
+            value,
+            error: error + bias,
+        }
     }
 
-    /// The visible share among any blockers.
+    /// The visible share among any blockers, by segments.
     fn among(&self, i: usize, j: usize, blocked: Blocked<'_>, clear: f64) -> Share {
         let targets = [&self.targets[i], &self.targets[j]];
-        self.share(i, j, &Segments { targets, blocked }, clear)
+        let segments = Segments { targets, blocked };
+        let stream = Stream::of_pair(SEED, i, j);
+        share(&segments, stream, self.wanted(i, j, clear))
     }
 
-    /// The visible share to the pair's part of the tolerance.
-    fn share(&self, i: usize, j: usize, sampler: &impl Sampler, clear: f64) -> Share {
+    /// The error of a share that is the pair's part of the tolerance of either row.
+    fn wanted(&self, i: usize, j: usize, clear: f64) -> f64 {
         let smaller = self.area(i).min(self.area(j));
         let pairs = self.mesh.patches.len() as f64 / PARTLY_HIDDEN_ONE_IN;
-        let wanted = smaller * self.tolerance / pairs.max(1.0) / clear;
-        share(sampler, Stream::of_pair(SEED, i, j), wanted)
+        smaller * self.tolerance / pairs.max(1.0) / clear
     }
 
     fn area(&self, patch: usize) -> f64 {

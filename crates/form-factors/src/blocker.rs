@@ -84,16 +84,20 @@ impl Heights {
             let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
             for a in 0..4 {
                 for b in 0..4 {
-                    // Where the segment crosses the plane, times its length across it.
-                    let at = edge_i[a] * plane_j[b].abs() + edge_j[b] * plane_i[a].abs();
-                    least = least.min(at);
-                    most = most.max(at);
+                    // The height over the edge where the segment crosses the plane.
+                    let (to_plane_i, to_plane_j) = (plane_i[a].abs(), plane_j[b].abs());
+                    let across = to_plane_i + to_plane_j;
+                    if across > 0.0 {
+                        let at = (edge_i[a] * to_plane_j + edge_j[b] * to_plane_i) / across;
+                        least = least.min(at);
+                        most = most.max(at);
+                    }
                 }
             }
-            if most <= 0.0 {
+            if most <= tolerance {
                 return Effect::Nothing;
             }
-            hides &= least >= 0.0;
+            hides &= least >= -tolerance;
         }
         if hides { Effect::Hides } else { Effect::Partly }
     }

@@ -5,8 +5,9 @@ use crate::points::Sample;
 use arrayvec::ArrayVec;
 use radiosity_geometry::{DVec3, Patch, Polygon};
 
-/// Up to four corners, and one more where a plane cuts one off.
-pub(crate) type Corners = ArrayVec<DVec3, 5>;
+/// Up to four corners, and one more where a plane cuts one off. Quads may be twisted by the
+/// rounding of their corners, and then a plane nearly their own crosses all four edges.
+pub(crate) type Corners = ArrayVec<DVec3, 8>;
 
 /// The rules of 1, 2 and 3 points along each edge.
 pub(crate) const RULES: usize = 3;
@@ -44,15 +45,25 @@ impl Element {
         }
     }
 
+    /// The area, in square scene units.
+    pub(crate) fn area(&self) -> f64 {
+        self.rules[0][0].area
+    }
+
     /// The height of a point over the element's plane.
     fn height(&self, point: DVec3) -> f64 {
         self.normal.dot(point - self.centroid)
     }
 
+    /// Whether a polygon is wholly in front of this element.
+    pub(crate) fn faces_whole(&self, other: &Element, tolerance: f64) -> bool {
+        other.corners.iter().all(|&c| self.height(c) >= -tolerance)
+    }
+
     /// The part of a polygon in front of this element, if there is any. What is within
     /// `tolerance` of the plane counts as on it.
     pub(crate) fn clip(&self, corners: &[DVec3], tolerance: f64) -> Option<Corners> {
-        let heights: ArrayVec<f64, 5> = corners.iter().map(|&c| self.height(c)).collect();
+        let heights: ArrayVec<f64, 4> = corners.iter().map(|&c| self.height(c)).collect();
         if heights.iter().all(|&h| h <= tolerance) {
             return None;
         }

@@ -8,6 +8,7 @@ use crate::exchange::all_pairs;
 use crate::fixed::FixedSums;
 use crate::monte_carlo::{MonteCarlo, Strata};
 use crate::points::{Sample, regular};
+use crate::surroundings::{Surroundings, look_around};
 use crate::{Estimator, FormFactors};
 use radiosity_geometry::{DVec3, Face, FaceId, Mesh, Occluders, Patch, Polygon};
 use radiosity_matrix::{SymmetricMatrix, packed_len, packed_row, row_blocks_mut};
@@ -113,24 +114,29 @@ impl<'a> Estimation<'a> {
                     progress(i as u64);
                 }
             });
-        let areas = self.mesh.patches.iter().map(|patch| patch.area).collect();
+        let patches = self.mesh.patches.par_iter();
+        let areas = patches.clone().map(|patch| patch.area).collect();
         let exchange = SymmetricMatrix::new(size, values).expect("one value per pair was made");
         let errors = match self.method {
             Method::Accurate(_) => Some(errors.into_sums()),
             Method::Regular(_) | Method::MonteCarlo(_) => None,
         };
-        FormFactors::new(areas, exchange, errors.as_deref())
+        let surroundings: Vec<Surroundings> = patches
+            .enumerate()
+            .map(|(index, patch)| look_around(&self.occluders, patch, index))
+            .collect();
+        FormFactors::new(areas, exchange, errors.as_deref(), &surroundings)
     }
 
-    /// Fills the zeroed entries `(i, 0 .. i)`, face by face, and adds their errors, in units of
-    /// the total area, to those of both patches.
+    /// Fills the zeroed entries `(i, 0 .. i)`, face by face, and adds the errors of
+    /// the factors to those of both rows.
     fn row(&self, i: usize, row: &mut [f32], errors: &FixedSums) {
         let own_face = self.mesh.patches[i].face.index();
         for (index, face) in self.mesh.faces[..own_face].iter().enumerate() {
             self.pairs(i, FaceId(index as u32), face.patches(), |j, exchange| {
                 row[j] = (exchange.value * self.scale) as f32;
-                errors.add(i, exchange.error * self.scale);
-                errors.add(j, exchange.error * self.scale);
+                errors.add(i, exchange.error / self.mesh.patches[i].area);
+                errors.add(j, exchange.error / self.mesh.patches[j].area);
             });
         }
     }

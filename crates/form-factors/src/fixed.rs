@@ -2,11 +2,11 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Sums of numbers in `[0, 1]`, in units of 2^-52: rounding such numbers to whole units makes
-/// their addition exact, and so commutative.
+/// Sums of positive numbers, up to 2^24, in units of 2^-40: rounding the numbers up to whole units
+/// makes their addition exact, and so commutative.
 pub(crate) struct FixedSums(Vec<AtomicU64>);
 
-const UNITS: f64 = (1u64 << 52) as f64;
+const UNITS: f64 = (1u64 << 40) as f64;
 
 impl FixedSums {
     pub(crate) fn new(count: usize) -> FixedSums {
@@ -15,7 +15,7 @@ impl FixedSums {
 
     pub(crate) fn add(&self, index: usize, number: f64) {
         if number > 0.0 {
-            self.0[index].fetch_add((number * UNITS) as u64, Ordering::Relaxed);
+            self.0[index].fetch_add((number * UNITS).ceil() as u64, Ordering::Relaxed);
         }
     }
 
@@ -40,6 +40,6 @@ mod tests {
         let forth = sum([0, 1, 2, 3, 4]);
         assert_eq!(forth, sum([3, 1, 4, 0, 2]));
         assert_eq!(forth[0], 0.0);
-        assert!((forth[1] - numbers.iter().sum::<f64>()).abs() < 5e-16 * 5.0);
+        assert!((forth[1] - numbers.iter().sum::<f64>()).abs() < 5.0 / UNITS);
     }
 }

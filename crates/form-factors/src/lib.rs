@@ -13,7 +13,7 @@
 //! - A patch sees what is in front of it and shows its own front; both sides of a face block.
 //! - Two patches of one planar face have `F = 0`. That goes by face: two faces of one mesh see
 //!   each other like any others.
-//! - No single entry is ever clamped.
+//! - No entry is clamped so that rows fit: what rows sum to is reported.
 //!
 //! This crate knows nothing of materials, emission, cameras or names, so changing those cannot
 //! invalidate what it computed.
@@ -31,12 +31,14 @@ mod monte_carlo;
 mod points;
 mod random;
 mod segments;
+mod surroundings;
 mod target;
 mod unoccluded;
 mod visible;
 
 use radiosity_matrix::SymmetricMatrix;
 use serde::{Deserialize, Serialize};
+use surroundings::Surroundings;
 
 pub use estimate::{Estimation, estimate};
 
@@ -100,9 +102,15 @@ impl Estimator {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RowFacts {
     /// The sum of the row's factors: the share of the power leaving the patch that arrives at
-    /// fronts of other patches. The rest arrives at backs or leaves the scene; more than 1 is
-    /// an error of the estimator.
+    /// fronts of other patches. More than 1 is an error of the estimator.
     pub fronts: f64,
+    /// The share that arrives at backs, and the share that leaves the scene: measured by rays, and
+    /// so independent of the factors. With `fronts` they sum to 1 within the errors.
+    pub backs: f64,
+    /// See `backs`.
+    pub background: f64,
+    /// Standard error of the sum of `backs` and `background`.
+    pub rays_error: f64,
     /// The estimated sum of the absolute errors of the row's factors, if the estimator tells.
     pub error: Option<f64>,
 }
@@ -120,15 +128,23 @@ pub struct FormFactors {
 
 impl FormFactors {
     /// Completes areas and matrix by the facts that follow from them. `errors` are those of the
-    /// rows of `S`, in units of the total area.
-    pub fn new(areas: Vec<f64>, exchange: SymmetricMatrix, errors: Option<&[f64]>) -> FormFactors {
+    /// rows.
+    fn new(
+        areas: Vec<f64>,
+        exchange: SymmetricMatrix,
+        errors: Option<&[f64]>,
+        surroundings: &[Surroundings],
+    ) -> FormFactors {
         let total: f64 = areas.iter().sum();
-        let sums = exchange.row_sums();
-        let row = |(index, (sum, area)): (usize, (f64, &f64))| RowFacts {
-            fronts: sum * total / area,
-            error: errors.map(|errors| errors[index] * total / area),
+        let fronts = exchange.row_sums();
+        let row = |i: usize| RowFacts {
+            fronts: fronts[i] * total / areas[i],
+            backs: surroundings[i].backs,
+            background: surroundings[i].background,
+            rays_error: surroundings[i].error,
+            error: errors.map(|errors| errors[i]),
         };
-        let rows = std::iter::zip(sums, &areas).enumerate().map(row).collect();
+        let rows = (0..areas.len()).map(row).collect();
         FormFactors {
             areas,
             exchange,

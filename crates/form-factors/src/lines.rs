@@ -3,7 +3,7 @@
 //! is continuous, and needs far fewer samples than points do.
 //!
 //! Along a line the kernel is replaced by the parabola through three of its values, so this is
-//! for patches that are not too near.
+//! for patches that are not too near, and wholly in front of each other: see [`bias`].
 
 use crate::blocker::Blocker;
 use crate::target::{Points, Target, at, height, kernel, points};
@@ -13,6 +13,13 @@ use std::ops::Range;
 
 /// More blockers are not worth sorting.
 pub(crate) const MOST_BLOCKERS: usize = 8;
+
+/// By how much parabolas at most change a share, by the ratio of the radius of the patch that lines
+/// cross to its distance. Opposed squares whose half edge is 0.3, 0.5, 0.7 of their distance, and
+/// the worst shadows: 0.0004, 0.0027, 0.008, at ratios of 0.42, 0.71, 0.99.
+pub(crate) fn bias(ratio: f64) -> f64 {
+    0.01 * ratio * ratio * ratio
+}
 
 /// Lines across a patch, seen from points of another.
 pub(crate) struct Lines<'a> {
@@ -54,9 +61,6 @@ struct Antiderivative<F> {
 }
 
 impl Sampler for Lines<'_> {
-    // Of four dimensions a line covers one whole.
-    const UNSEEN_POWER: f64 = 4.0 / 3.0;
-
     fn add(&self, samples: Range<usize>, shifts: &Shifts, sums: &mut Sums) {
         dispatch(Measure {
             lines: self,
@@ -79,6 +83,7 @@ impl Kernel for Measure<'_> {
         } = self.lines;
         let mut all = simd.f64(&self.sums.all);
         let mut visible = simd.f64(&self.sums.visible);
+        let mut squares = simd.f64(&self.sums.squares);
         let zero = simd.splat_f64(0.0);
         let nothing = Interval {
             from: zero,
@@ -97,11 +102,14 @@ impl Kernel for Measure<'_> {
             }
             let shadows = &mut shadows[..blockers.len()];
             let total = light.at(simd.splat_f64(1.0));
-            all = all + p.area * total;
+            let weight = p.area * total;
+            all = all + weight;
+            squares = squares + weight * weight;
             visible = visible + p.area * (total - light_in_union(simd, shadows, &light));
         }
         self.sums.all = all.lanes();
         self.sums.visible = visible.lanes();
+        self.sums.squares = squares.lanes();
     }
 }
 

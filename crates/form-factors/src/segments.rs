@@ -30,8 +30,6 @@ pub(crate) struct Measure<'a> {
 }
 
 impl Sampler for Segments<'_> {
-    const UNSEEN_POWER: f64 = 1.0;
-
     fn add(&self, samples: Range<usize>, shifts: &Shifts, sums: &mut Sums) {
         dispatch(Measure {
             segments: self,
@@ -53,6 +51,7 @@ impl Kernel for Measure<'_> {
         } = self.segments;
         let mut all = simd.f64(&self.sums.all);
         let mut visible = simd.f64(&self.sums.visible);
+        let mut squares = simd.f64(&self.sums.squares);
         let zero = simd.splat_f64(0.0);
         for k in self.samples {
             let u = coordinate(simd, k, 0, self.shifts);
@@ -67,10 +66,12 @@ impl Kernel for Measure<'_> {
                 Blocked::Somehow(sight) => blocked_somehow(sight, &p, &q, weight.lanes()),
             };
             all = all + weight;
+            squares = squares + weight * weight;
             visible = visible + zero.select(blocked, weight);
         }
         self.sums.all = all.lanes();
         self.sums.visible = visible.lanes();
+        self.sums.squares = squares.lanes();
     }
 }
 

@@ -1,35 +1,51 @@
 //! The exchange of two patches with nothing between them: the cheapest rule that is good enough.
 
+use crate::accurate::Exchange;
 use crate::contour;
 use crate::element::{Element, RULES};
 use crate::exchange::all_pairs;
+use std::f64::consts::PI;
 
-/// `S_ij` of two patches to a relative error of about `error`, if nothing stood between them.
+/// `S_ij` of two patches, if nothing stood between them, to an error of about `error` times what it
+/// were if they faced each other squarely.
 ///
 /// `tolerance` is the height up to which a corner counts as in a plane.
-pub(crate) fn exchange(i: &Element, j: &Element, error: f64, tolerance: f64) -> f64 {
-    let (Some(part_i), Some(part_j)) =
-        (j.clip(&i.corners, tolerance), i.clip(&j.corners, tolerance))
-    else {
-        return 0.0;
+pub(crate) fn exchange(i: &Element, j: &Element, error: f64, tolerance: f64) -> Exchange {
+    let whole = i.faces_whole(j, tolerance) && j.faces_whole(i, tolerance);
+    if let Some(rule) = rule(i, j, error).filter(|_| whole) {
+        let [of_i, of_j] = [i, j].map(|element| (&element.rules[rule][..], element.normal));
+        let squarely = i.area() * j.area() / (PI * i.centroid.distance_squared(j.centroid));
+        return Exchange {
+            value: all_pairs(of_i, of_j, |_, _| true),
+            error: error * squarely,
+        };
+    }
+    let parts = (j.clip(&i.corners, tolerance), i.clip(&j.corners, tolerance));
+    let (Some(part_i), Some(part_j)) = parts else {
+        return Exchange::default();
     };
-    let whole = part_i == i.corners && part_j == j.corners;
-    match rule(i, j, error).filter(|_| whole) {
-        Some(rule) => all_pairs(
-            (&i.rules[rule], i.normal),
-            (&j.rules[rule], j.normal),
-            |_, _| true,
-        ),
-        // What is left of a part behind the other is rounding.
-        None => contour::exchange(&part_i, &part_j).max(0.0),
+    let value = contour::exchange(&part_i, &part_j);
+    debug_assert!(value.is_finite());
+    // Parts that barely see each other may come out below zero, by rounding.
+    let value = value.max(0.0);
+    Exchange {
+        value,
+        error: CONTOUR_ERROR * value,
     }
 }
 
-/// The first of Gauss's rules whose relative error is below a bound, by the ratio of the patches'
-/// radii to their distance.
+/// What halving edges leaves, relative to the exchange.
+const CONTOUR_ERROR: f64 = 1e-8;
+
+/// The first of Gauss's rules whose error is below a bound, by the ratio of the patches' radii to
+/// their distance.
 fn rule(i: &Element, j: &Element, error: f64) -> Option<usize> {
     let ratio = (i.radius + j.radius) / i.centroid.distance(j.centroid);
-    (0..RULES).find(|&rule| ERROR[rule] * ratio.powi(2 * (rule as i32 + 1)) < error)
+    let mut power = 1.0;
+    (0..RULES).find(|&rule| {
+        power *= ratio * ratio;
+        ERROR[rule] * power < error
+    })
 }
 
 /// The error of each rule is at most this times `ratio^(2 points)`, relative to the exchange of
@@ -43,7 +59,6 @@ mod tests {
     use radiosity_geometry::{DVec3, Divisions, Shape, Surface, subdivide};
     use rand::{RngExt, SeedableRng};
     use rand_pcg::Pcg64Mcg;
-    use std::f64::consts::PI;
 
     fn random_vector(rng: &mut Pcg64Mcg, size: f64) -> DVec3 {
         let mut coordinate = || size * (rng.random::<f64>() - 0.5);

@@ -31,6 +31,8 @@ impl Share {
 pub(crate) struct Sums {
     pub(crate) all: [f64; LANES],
     pub(crate) visible: [f64; LANES],
+    /// Of the squares of the kernel.
+    pub(crate) squares: [f64; LANES],
 }
 
 /// A random shift of each coordinate, for each lane.
@@ -38,10 +40,6 @@ pub(crate) type Shifts = [[f64; LANES]; 4];
 
 /// A way to sample a pair of patches.
 pub(crate) trait Sampler {
-    /// What is seen by less than one in `n` samples has less than the `n`-th part of the whole
-    /// to this power.
-    const UNSEEN_POWER: f64;
-
     /// Adds some samples of the sequence to the sums.
     fn add(&self, samples: Range<usize>, shifts: &Shifts, sums: &mut Sums);
 }
@@ -54,7 +52,7 @@ pub(crate) fn share(sampler: &impl Sampler, stream: Stream, wanted: f64) -> Shar
     let mut samples = 0..FEWEST;
     loop {
         sampler.add(samples.clone(), &shifts, &mut sums);
-        let share = sums.share(samples.end, sampler);
+        let share = sums.share();
         if share.error <= wanted || samples.end == MOST {
             return share;
         }
@@ -67,13 +65,14 @@ pub(crate) fn shifts(mut stream: Stream) -> Shifts {
 }
 
 impl Sums {
-    fn share<T: Sampler>(&self, samples: usize, _: &T) -> Share {
+    fn share(&self) -> Share {
         let sum = |lanes: &[f64; LANES]| lanes.iter().sum::<f64>();
         let all = sum(&self.all);
         if all <= 0.0 {
+            // No sample saw the fronts of both, though there is something to see: nothing is known.
             return Share {
-                value: 0.0,
-                error: 0.0,
+                value: 1.0,
+                error: 1.0,
             };
         }
         let value = sum(&self.visible) / all;
@@ -81,7 +80,9 @@ impl Sums {
         let squares: f64 = (0..LANES).map(residual).sum();
         let lanes = LANES as f64;
         let scatter = (lanes * squares / (lanes - 1.0)).sqrt() / all;
-        let unseen = libm::pow(lanes * samples as f64, -T::UNSEEN_POWER);
+        // What is smaller than the share of one sample may have gone unseen, and samples of little
+        // weight hardly count.
+        let unseen = sum(&self.squares) / (all * all);
         Share {
             // Parabolas through three values of the kernel may dip below zero.
             value: value.clamp(0.0, 1.0),
@@ -95,19 +96,30 @@ impl Sums {
 /// Integration", 2006).
 const GENERATOR: [u32; 4] = [1, 182_667, 469_891, 498_753];
 
-/// A coordinate of the `k`-th point of the lattice under each shift.
+/// A coordinate of the `k`-th point of the lattice.
 #[inline(always)]
-pub(crate) fn coordinate<S: Simd>(simd: S, k: usize, c: usize, shifts: &Shifts) -> S::F64 {
+fn on_lattice(k: usize, c: usize) -> f64 {
     // Integers multiply modulo 1.
     let turns = (k as u32).reverse_bits().wrapping_mul(GENERATOR[c]);
-    let fixed = f64::from(turns) / (1u64 << u32::BITS) as f64;
+    f64::from(turns) / (1u64 << u32::BITS) as f64
+}
+
+/// A coordinate of the `k`-th point of the lattice under each shift, folded: the integrand is then
+/// as good as periodic (Hickernell, "Obtaining O(N^-2+e) Convergence for Lattice Quadrature
+/// Rules", 2002).
+#[inline(always)]
+pub(crate) fn coordinate<S: Simd>(simd: S, k: usize, c: usize, shifts: &Shifts) -> S::F64 {
     let one = simd.splat_f64(1.0);
-    let x = simd.splat_f64(fixed) + simd.f64(&shifts[c]);
+    let x = simd.splat_f64(on_lattice(k, c)) + simd.f64(&shifts[c]);
     let x = x.select(x.less(one), x - one);
-    // Folded, the integrand is as good as periodic (Hickernell, "Obtaining O(N^-2+e) Convergence
-    // for Lattice Quadrature Rules", 2002).
     let twice = x + x;
     twice.min(one + one - twice)
+}
+
+/// [`coordinate`] under one shift.
+pub(crate) fn folded(k: usize, c: usize, shift: f64) -> f64 {
+    let twice = 2.0 * (on_lattice(k, c) + shift).fract();
+    twice.min(2.0 - twice)
 }
 
 #[cfg(test)]

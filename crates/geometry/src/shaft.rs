@@ -79,7 +79,7 @@ fn bevel(corners: &[[DVec3; 2]; 2], axes: [(usize, bool); 2], extent: f64) -> Op
         return None;
     }
     let normal = ((a.1 - b.1).abs(), (b.0 - a.0).abs());
-    let scale = 1.0 / normal.0.hypot(normal.1);
+    let scale = 1.0 / (normal.0 * normal.0 + normal.1 * normal.1).sqrt();
     let normal = (scale * normal.0, scale * normal.1);
     let offset = normal.0 * a.0 + normal.1 * a.1 - ROUNDING * extent;
     // A box's edge farthest inside is on the other side of it than the edge cut off.

@@ -60,7 +60,7 @@ const SOLUTION: &str = "solution";
 const SOLVER_STEPS: u64 = 100;
 /// Raise it whenever the layout of what is stored beside an array changes ([`RowFacts`],
 /// [`Convergence`], [`RowSummary`]): it is part of every key.
-const FACTS_VERSION: u32 = 2;
+const FACTS_VERSION: u32 = 3;
 
 impl<'a> Pipeline<'a> {
     /// Stage 1: cuts the scene into patches.

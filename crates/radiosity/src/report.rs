@@ -51,6 +51,9 @@ struct FormFactorReport {
     /// Why they were computed, or that nobody needed them; null if cached.
     reason: Option<String>,
     row_sum_mean: f64,
+    /// The mean shares of what a patch sees that are backs, and nothing at all: by rays.
+    row_backs_mean: f64,
+    row_background_mean: f64,
     /// The largest |row sum - 1|; in open scenes no error.
     row_sum_max_error: f64,
     /// Of all rows, the mean estimated sum of the absolute errors of their factors, if the
@@ -113,13 +116,15 @@ impl<'a> Report<'a> {
         pipeline: &Pipeline<'_>,
     ) {
         self.stage_line("form factors", origin);
-        let errors = rows
-            .estimated_error
-            .map_or_else(String::new, |(mean, worst)| {
-                format!("; their factors' errors to an estimated {mean:.1e}, {worst:.1e} at worst")
-            });
-        let more = format!("rows sum to {:.4} on average{errors}", rows.mean);
-        self.terminal.line(&indented(&more));
+        self.terminal.line(&indented(&format!(
+            "rows sum to {:.4} on average; backs are {:.4} of what patches see, nothing {:.4}",
+            rows.mean, rows.backs, rows.background
+        )));
+        if let Some((mean, worst)) = rows.estimated_error {
+            self.terminal.line(&indented(&format!(
+                "the errors of a row sum to an estimated {mean:.1e} on average, {worst:.1e} at worst"
+            )));
+        }
         if rows.excessive > 0 {
             let patches = pipeline.mesh().patches.len() as u64;
             let (sum, patch) = rows.largest;
@@ -136,6 +141,8 @@ impl<'a> Report<'a> {
             cached: origin.is_cached(),
             reason: origin.reason().map(str::to_owned),
             row_sum_mean: rows.mean,
+            row_backs_mean: rows.backs,
+            row_background_mean: rows.background,
             row_sum_max_error: rows.max_error,
             row_error_mean: rows.estimated_error.map(|(mean, _)| mean),
             row_error_max: rows.estimated_error.map(|(_, worst)| worst),

@@ -42,7 +42,7 @@ impl Needs {
             patches,
             pairs,
             memory: matrix + per_patch * patches as u64,
-            disk: matrix + 16 * patches as u64,
+            disk: matrix + 48 * patches as u64,
         }
     }
 

@@ -8,6 +8,10 @@ use serde::{Deserialize, Serialize};
 pub struct RowSummary {
     /// The mean row sum, patches weighted equally.
     pub mean: f64,
+    /// The mean shares of what a patch sees that are backs, and nothing at all.
+    pub backs: f64,
+    /// See `backs`.
+    pub background: f64,
     /// The largest distance of a row sum from 1. In open scenes that is no error: what is
     /// missing left the scene.
     pub max_error: f64,
@@ -25,6 +29,8 @@ const EXCESSIVE: f64 = 1.001;
 impl RowSummary {
     pub(crate) fn of(rows: &[RowFacts]) -> RowSummary {
         let sums = || rows.iter().map(|row| row.fronts);
+        let mean =
+            |share: fn(&RowFacts) -> f64| rows.iter().map(share).sum::<f64>() / rows.len() as f64;
         let largest = sums().enumerate().fold((0.0, 0), |best, (patch, sum)| {
             if sum > best.0 {
                 (sum, patch as u64)
@@ -33,7 +39,9 @@ impl RowSummary {
             }
         });
         RowSummary {
-            mean: sums().sum::<f64>() / rows.len() as f64,
+            mean: mean(|row| row.fronts),
+            backs: mean(|row| row.backs),
+            background: mean(|row| row.background),
             max_error: sums().map(|sum| (sum - 1.0).abs()).fold(0.0, f64::max),
             excessive: sums().filter(|&sum| sum > EXCESSIVE).count() as u64,
             largest,

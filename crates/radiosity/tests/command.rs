@@ -34,6 +34,8 @@ fn render_reports_one_json_object() {
         [
             "cached",
             "reason",
+            "row_background_mean",
+            "row_backs_mean",
             "row_sum_max_error",
             "row_sum_mean",
             "seconds"
@@ -223,7 +225,7 @@ fn check_computes_nothing() {
     let place = Place::new();
     let said = place.succeed("check room.toml --patches 100");
     assert!(
-        said.contains("10,008 patches") && said.contains("200 MB of disk"),
+        said.contains("10,008 patches") && said.contains("201 MB of disk"),
         "{said}"
     );
     assert!(!place.path("out").exists() && !place.path("platform-cache").exists());

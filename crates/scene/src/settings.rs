@@ -65,7 +65,7 @@ pub struct SolverSettings {
     pub max_sweeps: u32,
 }
 
-/// A thousandth of a row is well below what patches of constant radiosity cost.
+/// Well below what patches of constant radiosity cost, and for engineers who want factors.
 const DEFAULT_TOLERANCE: f64 = 3e-4;
 
 #[derive(Debug, Default, Deserialize)]

@@ -360,6 +360,9 @@ impl EstimateArgs {
         if self.tolerance.is_some() && settings.mode != Mode::Accurate {
             eprintln!("warning: --tolerance is for --mode accurate, and changes nothing");
         }
+        if self.points.is_some() && settings.mode == Mode::Accurate {
+            eprintln!("warning: --points is not for --mode accurate, and changes nothing");
+        }
         if settings.mode != Mode::MonteCarlo && (self.pairs.is_some() || self.seed.is_some()) {
             eprintln!("warning: --pairs and --seed are for --mode monte-carlo, and change nothing");
         }
