@@ -1,8 +1,10 @@
 //! The command line, as clap reads it.
 
+use super::parse::{
+    parse_counts, parse_csv_path, parse_difference_path, parse_positive, parse_row_tolerance,
+    parse_size, parse_tolerance,
+};
 use clap::{Args, Subcommand, ValueEnum};
-use radiosity_geometry::{Divisions, PixelFilter};
-use radiosity_scene::{Mode, Scene};
 use std::path::PathBuf;
 
 /// The stages, and what helps with them.
@@ -300,7 +302,7 @@ pub enum CacheAction {
     Clean,
 }
 
-/// [`Mode`] on the command line.
+/// [`Mode`](radiosity_scene::Mode) on the command line.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum ModeArg {
     /// Fixed points on each patch, all pairs of them
@@ -313,7 +315,7 @@ pub enum ModeArg {
     MonteCarlo,
 }
 
-/// [`PixelFilter`] on the command line.
+/// [`PixelFilter`](radiosity_geometry::PixelFilter) on the command line.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum FilterArg {
     /// A tent around each sub-pixel that overlaps its neighbours: the course's filter
@@ -331,137 +333,4 @@ pub enum FormatArg {
     PlainPpm,
     /// Portable network graphics, 8 bit
     Png,
-}
-
-impl SceneArgs {
-    pub(crate) fn apply(&self, scene: &mut Scene) {
-        if let Some((a, b)) = self.patches {
-            scene.divisions = Divisions::Count { a, b };
-        }
-        if let Some(length) = self.max_patch_edge {
-            scene.divisions = Divisions::MaxEdge(length);
-        }
-    }
-}
-
-impl EstimateArgs {
-    pub(crate) fn apply(&self, scene: &mut Scene) {
-        let settings = &mut scene.form_factors;
-        let mode = self.mode.map(|mode| match mode {
-            ModeArg::Regular => Mode::Regular,
-            ModeArg::MonteCarlo => Mode::MonteCarlo,
-            ModeArg::Accurate => Mode::Accurate,
-        });
-        set(&mut settings.mode, mode);
-        set(&mut settings.points, self.points);
-        set(&mut settings.seed, self.seed);
-        set(&mut settings.tolerance, self.tolerance);
-        settings.pairs = self.pairs.or(settings.pairs);
-        if self.tolerance.is_some() && settings.mode != Mode::Accurate {
-            eprintln!("warning: --tolerance is for --mode accurate, and changes nothing");
-        }
-        if self.points.is_some() && settings.mode == Mode::Accurate {
-            eprintln!("warning: --points is not for --mode accurate, and changes nothing");
-        }
-        if settings.mode != Mode::MonteCarlo && (self.pairs.is_some() || self.seed.is_some()) {
-            eprintln!("warning: --pairs and --seed are for --mode monte-carlo, and change nothing");
-        }
-    }
-}
-
-impl SolveArgs {
-    pub(crate) fn apply(&self, scene: &mut Scene) {
-        set(&mut scene.solver.tolerance, self.residual);
-        set(&mut scene.solver.max_sweeps, self.max_sweeps);
-    }
-}
-
-impl ImageArgs {
-    pub(crate) fn apply(&self, scene: &mut Scene) {
-        let image = &mut scene.image;
-        set(&mut image.width, self.size.map(|(width, _)| width));
-        set(&mut image.height, self.size.map(|(_, height)| height));
-        set(&mut image.subpixels, self.subpixels);
-        let filter = self.filter.map(|filter| match filter {
-            FilterArg::Tents => PixelFilter::Tents,
-            FilterArg::Box => PixelFilter::Box,
-        });
-        set(&mut image.filter, filter);
-        set(&mut image.exposure, self.exposure);
-        set(&mut image.gamma, self.gamma);
-    }
-}
-
-impl DisplayArgs {
-    pub(crate) fn apply(&self, scene: &mut Scene) {
-        self.image.apply(scene);
-        set(&mut scene.image.samples, self.samples);
-    }
-}
-
-fn set<T>(setting: &mut T, flag: Option<T>) {
-    if let Some(value) = flag {
-        *setting = value;
-    }
-}
-
-fn parse_counts(text: &str) -> Result<(u32, u32), String> {
-    let counts = match text.split_once('x') {
-        Some((a, b)) => (a.parse(), b.parse()),
-        None => (text.parse(), text.parse()),
-    };
-    match counts {
-        (Ok(a), Ok(b)) if a > 0 && b > 0 => Ok((a, b)),
-        _ => Err("expected a positive whole number like 12, or two like 12x8".to_owned()),
-    }
-}
-
-fn parse_size(text: &str) -> Result<(u32, u32), String> {
-    let limits = 1..=1 << 16;
-    match parse_counts(text) {
-        Ok((w, h)) if text.contains('x') && limits.contains(&w) && limits.contains(&h) => {
-            Ok((w, h))
-        }
-        _ => Err("expected width and height between 1 and 65536, like 640x480".to_owned()),
-    }
-}
-
-fn parse_positive(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(x) if x > 0.0 && f64::is_finite(x) => Ok(x),
-        _ => Err("expected a positive number".to_owned()),
-    }
-}
-
-fn parse_row_tolerance(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(tolerance) if (1e-6..=0.1).contains(&tolerance) => Ok(tolerance),
-        _ => Err("must be a number from 1e-6 to 0.1".to_owned()),
-    }
-}
-
-fn parse_tolerance(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(x) if x > 0.0 && x < 1.0 => Ok(x),
-        _ => Err("expected a number between 0 and 1, like 1e-6".to_owned()),
-    }
-}
-
-fn parse_csv_path(text: &str) -> Result<PathBuf, String> {
-    parse_path(text, &["csv"])
-}
-
-fn parse_difference_path(text: &str) -> Result<PathBuf, String> {
-    parse_path(text, &["png", "pfm"])
-}
-
-fn parse_path(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    match path.extension() {
-        Some(found) if endings.iter().any(|ending| found == *ending) => Ok(path),
-        _ => Err(format!(
-            "expected a path that ends in .{}",
-            endings.join(" or .")
-        )),
-    }
 }

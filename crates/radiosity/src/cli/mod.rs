@@ -1,8 +1,10 @@
 //! The command: what `radiosity` and `cargo xtask` share.
 
+mod apply;
 mod args;
 mod cache_folder;
 mod compare;
+mod parse;
 mod reference;
 mod run;
 mod site;

@@ -1,0 +1,78 @@
+//! Flags override what the scene says.
+
+use super::args::{DisplayArgs, EstimateArgs, FilterArg, ImageArgs, ModeArg, SceneArgs, SolveArgs};
+use super::terminal::tell;
+use radiosity_geometry::{Divisions, PixelFilter};
+use radiosity_scene::{Mode, Scene};
+
+impl SceneArgs {
+    pub(crate) fn apply(&self, scene: &mut Scene) {
+        if let Some((a, b)) = self.patches {
+            scene.divisions = Divisions::Count { a, b };
+        }
+        if let Some(length) = self.max_patch_edge {
+            scene.divisions = Divisions::MaxEdge(length);
+        }
+    }
+}
+
+impl EstimateArgs {
+    pub(crate) fn apply(&self, scene: &mut Scene) {
+        let settings = &mut scene.form_factors;
+        let mode = self.mode.map(|mode| match mode {
+            ModeArg::Regular => Mode::Regular,
+            ModeArg::MonteCarlo => Mode::MonteCarlo,
+            ModeArg::Accurate => Mode::Accurate,
+        });
+        set(&mut settings.mode, mode);
+        set(&mut settings.points, self.points);
+        set(&mut settings.seed, self.seed);
+        set(&mut settings.tolerance, self.tolerance);
+        settings.pairs = self.pairs.or(settings.pairs);
+        if self.tolerance.is_some() && settings.mode != Mode::Accurate {
+            tell("warning: --tolerance is for --mode accurate, and changes nothing");
+        }
+        if self.points.is_some() && settings.mode == Mode::Accurate {
+            tell("warning: --points is not for --mode accurate, and changes nothing");
+        }
+        if settings.mode != Mode::MonteCarlo && (self.pairs.is_some() || self.seed.is_some()) {
+            tell("warning: --pairs and --seed are for --mode monte-carlo, and change nothing");
+        }
+    }
+}
+
+impl SolveArgs {
+    pub(crate) fn apply(&self, scene: &mut Scene) {
+        set(&mut scene.solver.tolerance, self.residual);
+        set(&mut scene.solver.max_sweeps, self.max_sweeps);
+    }
+}
+
+impl ImageArgs {
+    pub(crate) fn apply(&self, scene: &mut Scene) {
+        let image = &mut scene.image;
+        set(&mut image.width, self.size.map(|(width, _)| width));
+        set(&mut image.height, self.size.map(|(_, height)| height));
+        set(&mut image.subpixels, self.subpixels);
+        let filter = self.filter.map(|filter| match filter {
+            FilterArg::Tents => PixelFilter::Tents,
+            FilterArg::Box => PixelFilter::Box,
+        });
+        set(&mut image.filter, filter);
+        set(&mut image.exposure, self.exposure);
+        set(&mut image.gamma, self.gamma);
+    }
+}
+
+impl DisplayArgs {
+    pub(crate) fn apply(&self, scene: &mut Scene) {
+        self.image.apply(scene);
+        set(&mut scene.image.samples, self.samples);
+    }
+}
+
+fn set<T>(setting: &mut T, flag: Option<T>) {
+    if let Some(value) = flag {
+        *setting = value;
+    }
+}
