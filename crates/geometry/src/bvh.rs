@@ -4,8 +4,7 @@
 //! The boxes are in single precision, relative to the centre of the scene and rounded outwards.
 //! A leaf holds up to eight items; what they are is the visitor's business.
 
-use crate::bounds::Aabb;
-use crate::build;
+use crate::build::MAX_DEPTH;
 use crate::ray::Ray;
 use crate::shaft::Shaft;
 use crate::slabs::{Boxes, Frame};
@@ -43,14 +42,9 @@ pub(crate) trait Visitor {
 /// So few leaves are looked at faster than the boxes around them.
 pub(crate) const FEW_LEAVES: usize = 3;
 /// Each level leaves up to seven of its eight children waiting.
-const STACK: usize = (LANES - 1) * build::MAX_DEPTH + LANES;
+const STACK: usize = (LANES - 1) * MAX_DEPTH + LANES;
 
 impl Bvh {
-    /// Builds the tree; also returns the items of each leaf.
-    pub(crate) fn new(boxes: &[Aabb]) -> (Bvh, Vec<Vec<u32>>) {
-        build::build(boxes)
-    }
-
     /// Shows a visitor all leaves that the ray may touch at parameters in `from..=limit`, near
     /// ones first.
     #[inline(always)]

@@ -1,10 +1,11 @@
 //! What rays and segments meet: closest hits for pictures, any hits for visibility.
 
 use crate::bounds::Aabb;
+use crate::build::build;
 use crate::bvh::Bvh;
 use crate::face_block::FaceBlock;
 use crate::mesh::{Face, FaceId, Mesh};
-use crate::queries::{AnyHit, Blocked, ClosestHit};
+use crate::queries::{Blocked, Reach};
 use crate::ray::Ray;
 use glam::DVec3;
 use radiosity_simd::dispatch;
@@ -75,7 +76,7 @@ impl Occluders {
         // A ray within the side of a flat box must find it.
         let boxes: Vec<Aabb> = boxes.map(|b| b.grown(plane_tolerance)).collect();
         let faces: Vec<Occluder> = mesh.faces.iter().map(Occluder::new).collect();
-        let (tree, leaves) = Bvh::new(&boxes);
+        let (tree, leaves) = build(&boxes);
         Occluders {
             blocks: leaves
                 .iter()
@@ -103,12 +104,28 @@ impl Occluders {
         to: f64,
         except: Option<FaceId>,
     ) -> Option<Hit> {
-        dispatch(ClosestHit::new(self, ray, from, to, except))
+        dispatch(self.reach(ray, from, to, except).closest_hit())
     }
 
     /// Whether a ray meets any face at a parameter in `from..=to`, other than `except`.
     pub fn any_hit(&self, ray: &Ray, from: f64, to: f64, except: Option<FaceId>) -> bool {
-        dispatch(AnyHit::new(self, ray, from, to, except))
+        dispatch(self.reach(ray, from, to, except).any_hit())
+    }
+
+    pub(crate) fn reach<'a>(
+        &'a self,
+        ray: &'a Ray,
+        from: f64,
+        to: f64,
+        except: Option<FaceId>,
+    ) -> Reach<'a> {
+        Reach {
+            occluders: self,
+            ray,
+            from,
+            to,
+            except,
+        }
     }
 
     /// Whether a face other than `i` and `j` cuts the open segment from `p` on face `i` to `q`

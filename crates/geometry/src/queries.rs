@@ -8,23 +8,25 @@ use glam::DVec3;
 use radiosity_simd::{Kernel, Simd};
 use std::ops::ControlFlow;
 
+/// A ray, the range of its parameters that counts, and the face that does not.
+#[derive(Clone, Copy)]
+pub(crate) struct Reach<'a> {
+    pub(crate) occluders: &'a Occluders,
+    pub(crate) ray: &'a Ray,
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+    pub(crate) except: Option<FaceId>,
+}
+
 /// [`Occluders::closest_hit`].
 pub(crate) struct ClosestHit<'a> {
-    occluders: &'a Occluders,
-    ray: &'a Ray,
-    from: f64,
-    to: f64,
-    except: u32,
+    reach: Reach<'a>,
     closest: Option<Hit>,
 }
 
 /// [`Occluders::any_hit`].
 pub(crate) struct AnyHit<'a> {
-    occluders: &'a Occluders,
-    ray: &'a Ray,
-    from: f64,
-    to: f64,
-    except: u32,
+    reach: Reach<'a>,
     found: bool,
 }
 
@@ -40,25 +42,25 @@ pub(crate) struct Blocked<'a> {
 #[cfg(test)]
 mod tests;
 
-/// The index of no face.
-const NONE: u32 = u32::MAX;
-
-impl<'a> ClosestHit<'a> {
-    pub(crate) fn new(
-        occluders: &'a Occluders,
-        ray: &'a Ray,
-        from: f64,
-        to: f64,
-        except: Option<FaceId>,
-    ) -> ClosestHit<'a> {
+impl<'a> Reach<'a> {
+    pub(crate) fn closest_hit(self) -> ClosestHit<'a> {
         ClosestHit {
-            occluders,
-            ray,
-            from,
-            to,
-            except: except.map_or(NONE, |face| face.0),
+            reach: self,
             closest: None,
         }
+    }
+
+    pub(crate) fn any_hit(self) -> AnyHit<'a> {
+        AnyHit {
+            reach: self,
+            found: false,
+        }
+    }
+
+    #[inline(always)]
+    fn search<S: Simd>(&self, simd: S, visitor: &mut impl Visitor) {
+        let tree = &self.occluders.tree;
+        tree.along(simd, self.ray, self.from, self.to, visitor);
     }
 }
 
@@ -67,8 +69,8 @@ impl Kernel for ClosestHit<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(mut self, simd: S) -> Option<Hit> {
-        let tree = &self.occluders.tree;
-        tree.along(simd, self.ray, self.from, self.to, &mut self);
+        let reach = self.reach;
+        reach.search(simd, &mut self);
         self.closest
     }
 }
@@ -76,16 +78,23 @@ impl Kernel for ClosestHit<'_> {
 impl Visitor for ClosestHit<'_> {
     #[inline(always)]
     fn visit<S: Simd>(&mut self, simd: S, leaf: usize, limit: &mut f64) -> ControlFlow<()> {
-        let block = &self.occluders.blocks[leaf];
-        let hits = block.hits(simd, self.ray, self.from, *limit);
+        let Reach {
+            occluders,
+            ray,
+            from,
+            except,
+            ..
+        } = self.reach;
+        let block = &occluders.blocks[leaf];
+        let hits = block.hits(simd, ray, from, *limit);
         for lane in bits(hits.mask) {
-            let (t, face) = (hits.t[lane], block.face(lane));
-            let first = |best: Hit| t < best.t || t == best.t && face < best.face.0;
-            if face != self.except && self.closest.is_none_or(first) {
+            let (t, face) = (hits.t[lane], FaceId(block.face(lane)));
+            let first = |best: Hit| t < best.t || t == best.t && face < best.face;
+            if Some(face) != except && self.closest.is_none_or(first) {
                 *limit = t;
                 self.closest = Some(Hit {
                     t,
-                    face: FaceId(face),
+                    face,
                     front: hits.front >> lane & 1 != 0,
                 });
             }
@@ -94,32 +103,13 @@ impl Visitor for ClosestHit<'_> {
     }
 }
 
-impl<'a> AnyHit<'a> {
-    pub(crate) fn new(
-        occluders: &'a Occluders,
-        ray: &'a Ray,
-        from: f64,
-        to: f64,
-        except: Option<FaceId>,
-    ) -> AnyHit<'a> {
-        AnyHit {
-            occluders,
-            ray,
-            from,
-            to,
-            except: except.map_or(NONE, |face| face.0),
-            found: false,
-        }
-    }
-}
-
 impl Kernel for AnyHit<'_> {
     type Output = bool;
 
     #[inline(always)]
     fn run<S: Simd>(mut self, simd: S) -> bool {
-        let tree = &self.occluders.tree;
-        tree.along(simd, self.ray, self.from, self.to, &mut self);
+        let reach = self.reach;
+        reach.search(simd, &mut self);
         self.found
     }
 }
@@ -127,9 +117,16 @@ impl Kernel for AnyHit<'_> {
 impl Visitor for AnyHit<'_> {
     #[inline(always)]
     fn visit<S: Simd>(&mut self, simd: S, leaf: usize, limit: &mut f64) -> ControlFlow<()> {
-        let block = &self.occluders.blocks[leaf];
-        let hits = block.hits(simd, self.ray, self.from, *limit);
-        self.found = bits(hits.mask).any(|lane| block.face(lane) != self.except);
+        let Reach {
+            occluders,
+            ray,
+            from,
+            except,
+            ..
+        } = self.reach;
+        let block = &occluders.blocks[leaf];
+        let hits = block.hits(simd, ray, from, *limit);
+        self.found = bits(hits.mask).any(|lane| Some(FaceId(block.face(lane))) != except);
         stop_if(self.found)
     }
 }

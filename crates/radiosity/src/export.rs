@@ -1,7 +1,8 @@
 //! Results as tables.
 
+use crate::error::Error;
 use radiosity_compare::{Cell, Row, Table};
-use radiosity_geometry::{Face, Mesh};
+use radiosity_geometry::{Divisions, Face, Mesh, subdivide};
 use radiosity_reference::CellMean;
 use radiosity_scene::Scene;
 use radiosity_solver::Solution;
@@ -20,6 +21,16 @@ pub fn radiosity_table(scene: &Scene, mesh: &Mesh, solution: &Solution) -> Table
 pub fn reference_table(scene: &Scene, mesh: &Mesh, cells: &[CellMean]) -> Table {
     let mean = |patch: usize| (cells[patch].radiosity, Some(cells[patch].standard_error));
     table(scene, mesh, mean)
+}
+
+/// The patches of a table: the scene's own, or so many along the edges of each surface, whatever
+/// divisions it has of its own.
+pub(crate) fn table_mesh(scene: &Scene, counts: Option<(u32, u32)>) -> Result<Mesh, Error> {
+    let mesh = match counts {
+        Some((a, b)) => subdivide(&scene.undivided(), Divisions::Count { a, b }),
+        None => subdivide(&scene.geometry, scene.divisions),
+    };
+    mesh.map_err(|error| Error::of_mesh(scene, &error))
 }
 
 /// The patches that the tables of a scene have, in their order.

@@ -4,57 +4,12 @@
     reason = "intrinsics; see `run` for why their use is sound"
 )]
 
-use crate::registers::registers;
+use crate::registers::{entrance, registers};
 use crate::{Float, InstructionSet, Kernel, LANES, Name, Simd};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Made by [`run`] alone.
-#[derive(Clone, Copy)]
-pub(crate) struct Avx2(());
-
-#[inline]
-pub(crate) fn run<K: Kernel>(set: InstructionSet, kernel: K) -> K::Output {
-    assert_eq!(set.0, Name::Avx2);
-    // SAFETY: `InstructionSet::available` makes this value only where the processor has what
-    // the function asks for. `Avx2` and lanes exist only inside it, so all intrinsics of this
-    // module run there.
-    unsafe { enter(kernel) }
-}
-
-#[target_feature(enable = "avx2")]
-fn enter<K: Kernel>(kernel: K) -> K::Output {
-    kernel.run(Avx2(()))
-}
-
-impl Simd for Avx2 {
-    type F32 = F32;
-    type F64 = F64;
-
-    #[inline(always)]
-    fn f32(self, lanes: &[f32; LANES]) -> F32 {
-        // SAFETY: see `run`.
-        unsafe { F32::load(lanes) }
-    }
-
-    #[inline(always)]
-    fn f64(self, lanes: &[f64; LANES]) -> F64 {
-        // SAFETY: see `run`.
-        unsafe { F64::load(lanes) }
-    }
-
-    #[inline(always)]
-    fn splat_f32(self, number: f32) -> F32 {
-        // SAFETY: see `run`.
-        unsafe { F32::splat(number) }
-    }
-
-    #[inline(always)]
-    fn splat_f64(self, number: f64) -> F64 {
-        // SAFETY: see `run`.
-        unsafe { F64::splat(number) }
-    }
-}
+entrance!(Avx2, "avx2");
 
 registers! {
     F32: f32, [__m256; 1],

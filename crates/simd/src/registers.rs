@@ -1,4 +1,4 @@
-//! Lanes in one register or several.
+//! What the instruction sets have in common: lanes in one register or several, and the way in.
 
 /// Defines a type of eight lanes held in `$count` registers, and its operations, by the names
 /// of the intrinsics.
@@ -126,4 +126,56 @@ macro_rules! registers {
     };
 }
 
-pub(crate) use registers;
+/// Defines the type of an instruction set, `run`, which alone makes it, and its loads.
+macro_rules! entrance {
+    ($name:ident, $features:literal) => {
+        /// Made by [`run`] alone.
+        #[derive(Clone, Copy)]
+        pub(crate) struct $name(());
+
+        #[inline]
+        pub(crate) fn run<K: Kernel>(set: InstructionSet, kernel: K) -> K::Output {
+            assert_eq!(set.0, Name::$name);
+            // SAFETY: `InstructionSet::available` makes this value only where the processor has
+            // what the function asks for. The type and lanes exist only inside it, so all
+            // intrinsics of the module run there.
+            unsafe { enter(kernel) }
+        }
+
+        #[target_feature(enable = $features)]
+        fn enter<K: Kernel>(kernel: K) -> K::Output {
+            kernel.run($name(()))
+        }
+
+        impl Simd for $name {
+            type F32 = F32;
+            type F64 = F64;
+
+            #[inline(always)]
+            fn f32(self, lanes: &[f32; LANES]) -> F32 {
+                // SAFETY: see `run`.
+                unsafe { F32::load(lanes) }
+            }
+
+            #[inline(always)]
+            fn f64(self, lanes: &[f64; LANES]) -> F64 {
+                // SAFETY: see `run`.
+                unsafe { F64::load(lanes) }
+            }
+
+            #[inline(always)]
+            fn splat_f32(self, number: f32) -> F32 {
+                // SAFETY: see `run`.
+                unsafe { F32::splat(number) }
+            }
+
+            #[inline(always)]
+            fn splat_f64(self, number: f64) -> F64 {
+                // SAFETY: see `run`.
+                unsafe { F64::splat(number) }
+            }
+        }
+    };
+}
+
+pub(crate) use {entrance, registers};

@@ -75,8 +75,9 @@ pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
             (settings.mode, settings.points, settings.pairs) = (mode, points, pairs);
             settings.tolerance = TOLERANCE;
             let accuracy = oracle.judge(&scene)?;
-            eprintln!("{name}, {mode_name}: {}", described(accuracy.as_ref()));
-            row += &format!(" {} |", described(accuracy.as_ref()));
+            let described = described(accuracy.as_ref());
+            eprintln!("{name}, {mode_name}: {described}");
+            row += &format!(" {described} |");
             if json {
                 let figures = figures(name, mode_name, accuracy.as_ref());
                 figures.iter().for_each(Figure::print);

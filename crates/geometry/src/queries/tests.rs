@@ -74,10 +74,10 @@ fn check_ray(occluders: &Occluders, ray: &Ray, except: Option<FaceId>) {
     let nearer = |best: Hit, hit: &Hit| if hit.t < best.t { *hit } else { best };
     let closest = hits.first().map(|&first| hits.iter().fold(first, nearer));
     for set in InstructionSet::available() {
-        let to = f64::INFINITY;
-        let found = set.run(ClosestHit::new(occluders, ray, 0.0, to, except));
+        let reach = occluders.reach(ray, 0.0, f64::INFINITY, except);
+        let found = set.run(reach.closest_hit());
         assert_eq!(found, closest, "{}", set.name());
-        let any = set.run(AnyHit::new(occluders, ray, 0.0, to, except));
+        let any = set.run(reach.any_hit());
         assert_eq!(any, closest.is_some(), "{}", set.name());
     }
 }

@@ -5,13 +5,12 @@ use super::run::{check_folder_of, write};
 use super::site::Site;
 use super::terminal::{say, tell};
 use crate::error::Error;
-use crate::export::cells;
+use crate::export::{cells, table_mesh};
 use crate::resources::grouped;
 use radiosity_compare::{
     Cell, Decoded, Errors, Screen, compare_pictures, compare_tables, decode_picture,
     decode_regions, difference_picture, parse_table,
 };
-use radiosity_geometry::{Divisions, subdivide};
 use radiosity_renderer::{Image, PictureFormat, encode, encode_pfm};
 use radiosity_scene::Scene;
 use serde::Serialize;
@@ -150,12 +149,7 @@ fn tables(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Erro
         return Err(Error::Input(problem.to_owned()));
     }
     let scene = scene.ok_or_else(needs_scene)?;
-    let of_mesh = |error| Error::of_mesh(scene, &error);
-    let mesh = match args.patches {
-        Some((a, b)) => subdivide(&scene.undivided(), Divisions::Count { a, b }),
-        None => subdivide(&scene.geometry, scene.divisions),
-    };
-    let cells = cells(scene, &mesh.map_err(of_mesh)?);
+    let cells = cells(scene, &table_mesh(scene, args.patches)?);
     let table = |path: &Path| parse_table(&read(path)?).map_err(at(path));
     let (found, reference) = (table(&args.found)?, table(&args.reference)?);
     let named = compare_tables(&cells, &found, &reference);

@@ -5,10 +5,9 @@ use super::run::{make_folder, with_threads, write};
 use super::site::Site;
 use super::terminal::{Terminal, say};
 use crate::error::Error;
-use crate::export::reference_table;
+use crate::export::{reference_table, table_mesh};
 use crate::observer::{Observer, Stage};
 use crate::resources::{check_image, grouped};
-use radiosity_geometry::{Divisions, subdivide};
 use radiosity_reference::{Tracer, cell_means};
 use radiosity_renderer::{Image, PictureFormat, ToneMap, encode, encode_pfm};
 use radiosity_scene::Scene;
@@ -73,19 +72,14 @@ pub(crate) fn run(args: &ReferenceCommand, site: &Site) -> Result<(), Error> {
     })
 }
 
-/// The mean radiosity of each cell: of the scene's own patches, or of a grid over each surface
-/// whatever divisions it has of its own.
+/// The mean radiosity of each patch, as a table.
 fn table(
     args: &ReferenceCommand,
     scene: &Scene,
     folder: &Path,
     terminal: &Terminal,
 ) -> Result<Json, Error> {
-    let mesh = match args.patches {
-        Some((a, b)) => subdivide(&scene.undivided(), Divisions::Count { a, b }),
-        None => subdivide(&scene.geometry, scene.divisions),
-    };
-    let mesh = mesh.map_err(|error| Error::of_mesh(scene, &error))?;
+    let mesh = table_mesh(scene, args.patches)?;
     let (start, patches) = (Instant::now(), mesh.patches.len());
     terminal.begin(Stage::Reference, patches as u64);
     terminal.update(
