@@ -36,10 +36,9 @@ pub(crate) enum Between<'a> {
     Many(&'a Sight<'a>),
 }
 
-/// What stands between two patches.
-enum Verdict<'a> {
-    Hidden,
-    Clear,
+/// What stands between two patches of which one does not hide the other.
+enum Doubt<'a> {
+    None,
     /// These may hide a part.
     Partly(Vec<Blocker>),
     /// Anything may.
@@ -71,19 +70,20 @@ impl<'a> Accurate<'a> {
 
     /// The exchange of a pair of patches.
     pub(crate) fn exchange(&self, i: usize, j: usize, between: &Between<'_>) -> Exchange {
-        let verdict = self.classify(i, j, between);
-        if let Verdict::Hidden = verdict {
+        let Some(doubt) = self.classify(i, j, between) else {
             return Exchange::default();
-        }
+        };
         let error = UNOCCLUDED_SHARE * self.tolerance;
         let (element_i, element_j) = (&self.elements[i], &self.elements[j]);
         let unoccluded = unoccluded::exchange(element_i, element_j, error, self.plane_tolerance);
         let clear = unoccluded.value;
-        let share = match &verdict {
-            _ if clear == 0.0 => Share::ALL,
-            Verdict::Hidden | Verdict::Clear => Share::ALL,
-            Verdict::Partly(blockers) => self.past(i, j, blockers, clear),
-            Verdict::Unknown(sight) => self.among(i, j, Blocked::Somehow(sight), clear),
+        if clear == 0.0 {
+            return unoccluded;
+        }
+        let share = match &doubt {
+            Doubt::None => return unoccluded,
+            Doubt::Partly(blockers) => self.past(i, j, blockers, clear),
+            Doubt::Unknown(sight) => self.among(i, j, Blocked::Somehow(sight), clear),
         };
         Exchange {
             value: share.value * clear,
@@ -91,14 +91,15 @@ impl<'a> Accurate<'a> {
         }
     }
 
-    fn classify<'s>(&self, i: usize, j: usize, between: &Between<'s>) -> Verdict<'s> {
+    /// `None` if one patch is hidden from the other.
+    fn classify<'s>(&self, i: usize, j: usize, between: &Between<'s>) -> Option<Doubt<'s>> {
         match between {
             Between::Few(few) => self.judge(j, few),
             Between::Many(sight) => {
                 let [from, to] = [i, j].map(|k| &self.mesh.patches[k].polygon);
                 match sight.narrowed(from, to).faces() {
                     Some(faces) => self.judge(j, &self.blockers(i, faces)),
-                    None => Verdict::Unknown(sight),
+                    None => Some(Doubt::Unknown(sight)),
                 }
             }
         }
@@ -114,21 +115,21 @@ impl<'a> Accurate<'a> {
         faces.iter().map(blocker).collect()
     }
 
-    fn judge(&self, j: usize, few: &[(Blocker, Heights)]) -> Verdict<'static> {
+    fn judge(&self, j: usize, few: &[(Blocker, Heights)]) -> Option<Doubt<'static>> {
         let corners = self.mesh.patches[j].polygon.padded_corners();
         let mut partly = Vec::new();
         for (blocker, at_i) in few {
             match at_i.effect(&blocker.heights(corners), self.plane_tolerance) {
-                Effect::Hides => return Verdict::Hidden,
+                Effect::Hides => return None,
                 Effect::Partly => partly.push(*blocker),
                 Effect::Nothing => {}
             }
         }
-        if partly.is_empty() {
-            Verdict::Clear
+        Some(if partly.is_empty() {
+            Doubt::None
         } else {
-            Verdict::Partly(partly)
-        }
+            Doubt::Partly(partly)
+        })
     }
 
     /// The visible share past a few blockers: by lines across the larger patch, where those are
@@ -140,7 +141,8 @@ impl<'a> Accurate<'a> {
             (j, i)
         };
         let (a, b) = (&self.elements[from], &self.elements[across]);
-        let bias = lines::bias(b.radius / a.centroid.distance(b.centroid));
+        let distance = (a.centroid.distance(b.centroid) - a.radius).max(0.0);
+        let bias = lines::bias(b.radius / distance);
         let wanted = self.wanted(i, j, clear);
         // Where either plane cuts the other patch the kernel is no parabola.
         let whole =

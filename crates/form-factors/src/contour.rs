@@ -16,9 +16,6 @@ use libm::{atan, log};
 use radiosity_geometry::DVec3;
 use std::f64::consts::TAU;
 
-/// Edges are parallel if the sine of their angle is below this: they then part by less than
-/// coordinates are rounded.
-const PARALLEL: f64 = 1e-12;
 /// Edges of this cosine or less contribute nothing.
 const PERPENDICULAR: f64 = 1e-15;
 /// How often an edge is halved where it meets another. The integrand's derivative grows as a
@@ -34,8 +31,9 @@ struct Edge {
 }
 
 /// `S = A_i F_ij` of two polygons, each wholly in front of the other: the corners of each,
-/// counter-clockwise seen from its front.
-pub(crate) fn exchange(i: &[DVec3], j: &[DVec3]) -> f64 {
+/// counter-clockwise seen from its front. Edges that part by no more than `tolerance`, to which
+/// coordinates are rounded, are parallel.
+pub(crate) fn exchange(i: &[DVec3], j: &[DVec3], tolerance: f64) -> f64 {
     // Any constant may be taken from the logarithm, as contours are closed: one that makes it
     // small keeps the rounding small.
     let unit = 1.0 / i[0].distance_squared(j[0]).max(i[0].distance_squared(i[1]));
@@ -46,7 +44,8 @@ pub(crate) fn exchange(i: &[DVec3], j: &[DVec3]) -> f64 {
             if cosine.abs() <= PERPENDICULAR {
                 continue;
             }
-            let integral = if a.tangent.cross(b.tangent).length() < PARALLEL {
+            let sine = a.tangent.cross(b.tangent).length();
+            let integral = if sine * a.length.min(b.length) <= tolerance {
                 parallel(&a, &b, unit)
             } else if a.length < b.length {
                 skew(&a, &b, unit)

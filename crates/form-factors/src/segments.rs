@@ -2,10 +2,9 @@
 
 use crate::blocker::Blocker;
 use crate::target::{Points, Target, height, kernel, points};
-use crate::visible::{Sampler, Shifts, Sums, coordinate};
+use crate::visible::{Sampler, Shifts, coordinate};
 use radiosity_geometry::Sight;
-use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
-use std::ops::Range;
+use radiosity_simd::{Float, LANES, Simd};
 
 /// What may block a segment.
 pub(crate) enum Blocked<'a> {
@@ -21,57 +20,26 @@ pub(crate) struct Segments<'a> {
     pub(crate) blocked: Blocked<'a>,
 }
 
-/// Some of them.
-pub(crate) struct Measure<'a> {
-    pub(crate) segments: &'a Segments<'a>,
-    pub(crate) shifts: &'a Shifts,
-    pub(crate) samples: Range<usize>,
-    pub(crate) sums: &'a mut Sums,
-}
-
 impl Sampler for Segments<'_> {
-    fn add(&self, samples: Range<usize>, shifts: &Shifts, sums: &mut Sums) {
-        dispatch(Measure {
-            segments: self,
-            shifts,
-            samples,
-            sums,
-        });
-    }
-}
-
-impl Kernel for Measure<'_> {
-    type Output = ();
-
     #[inline(always)]
-    fn run<S: Simd>(self, simd: S) {
-        let Segments {
-            targets: [i, j],
-            blocked,
-        } = self.segments;
-        let mut all = simd.f64(&self.sums.all);
-        let mut visible = simd.f64(&self.sums.visible);
-        let mut squares = simd.f64(&self.sums.squares);
-        let zero = simd.splat_f64(0.0);
-        for k in self.samples {
-            let u = coordinate(simd, k, 0, self.shifts);
-            let v = coordinate(simd, k, 1, self.shifts);
-            let p = points(simd, i, u, v);
-            let u = coordinate(simd, k, 2, self.shifts);
-            let v = coordinate(simd, k, 3, self.shifts);
-            let q = points(simd, j, u, v);
-            let weight = p.area * q.area * kernel(simd, (i, &p), (j, &q));
-            let blocked = match blocked {
-                Blocked::By(blockers) => cut_by_any(simd, blockers, &p, &q),
-                Blocked::Somehow(sight) => blocked_somehow(sight, &p, &q, weight.lanes()),
-            };
-            all = all + weight;
-            squares = squares + weight * weight;
-            visible = visible + zero.select(blocked, weight);
-        }
-        self.sums.all = all.lanes();
-        self.sums.visible = visible.lanes();
-        self.sums.squares = squares.lanes();
+    fn sample<S: Simd>(&self, simd: S, k: usize, shifts: &Shifts) -> [S::F64; 2] {
+        let [i, j] = self.targets;
+        let (u, v) = (
+            coordinate(simd, k, 0, shifts),
+            coordinate(simd, k, 1, shifts),
+        );
+        let p = points(simd, i, u, v);
+        let (u, v) = (
+            coordinate(simd, k, 2, shifts),
+            coordinate(simd, k, 3, shifts),
+        );
+        let q = points(simd, j, u, v);
+        let weight = p.area * q.area * kernel(simd, (i, &p), (j, &q));
+        let blocked = match self.blocked {
+            Blocked::By(blockers) => cut_by_any(simd, blockers, &p, &q),
+            Blocked::Somehow(sight) => blocked_somehow(sight, &p, &q, weight.lanes()),
+        };
+        [weight, simd.splat_f64(0.0).select(blocked, weight)]
     }
 }
 

@@ -24,7 +24,7 @@ pub(crate) fn exchange(i: &Element, j: &Element, error: f64, tolerance: f64) -> 
     let (Some(part_i), Some(part_j)) = parts else {
         return Exchange::default();
     };
-    let value = contour::exchange(&part_i, &part_j);
+    let value = contour::exchange(&part_i, &part_j, tolerance);
     debug_assert!(value.is_finite());
     // Parts that barely see each other may come out below zero, by rounding.
     let value = value.max(0.0);
@@ -106,7 +106,7 @@ mod tests {
                 if !is_whole(&i, &j) || !is_whole(&j, &i) || ratio > 0.5 {
                     continue;
                 }
-                let exact = contour::exchange(&i.corners, &j.corners);
+                let exact = contour::exchange(&i.corners, &j.corners, 1e-12);
                 let samples = |element: &Element| element.rules[rule].clone();
                 let (of_i, of_j) = (samples(&i), samples(&j));
                 let found = all_pairs((&of_i, i.normal), (&of_j, j.normal), |_, _| true);

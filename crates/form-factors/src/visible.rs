@@ -5,12 +5,12 @@
 //! Multiple Integration", 1976).
 
 use crate::random::Stream;
-use radiosity_simd::{Float, LANES, Simd};
+use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
 use std::ops::Range;
 
 /// Samples under each shift to begin with, and at most.
 const FEWEST: usize = 8;
-const MOST: usize = 4096;
+const MOST: usize = 8192;
 
 /// A share with its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,20 +19,13 @@ pub(crate) struct Share {
     pub(crate) error: f64,
 }
 
-impl Share {
-    pub(crate) const ALL: Share = Share {
-        value: 1.0,
-        error: 0.0,
-    };
-}
-
 /// By shift: the sums of the kernel, and of the kernel where there is a view.
 #[derive(Default)]
-pub(crate) struct Sums {
-    pub(crate) all: [f64; LANES],
-    pub(crate) visible: [f64; LANES],
+struct Sums {
+    all: [f64; LANES],
+    visible: [f64; LANES],
     /// Of the squares of the kernel.
-    pub(crate) squares: [f64; LANES],
+    squares: [f64; LANES],
 }
 
 /// A random shift of each coordinate, for each lane.
@@ -40,18 +33,51 @@ pub(crate) type Shifts = [[f64; LANES]; 4];
 
 /// A way to sample a pair of patches.
 pub(crate) trait Sampler {
-    /// Adds some samples of the sequence to the sums.
-    fn add(&self, samples: Range<usize>, shifts: &Shifts, sums: &mut Sums);
+    /// The kernel of the `k`-th sample under each shift, and how much of it is visible.
+    fn sample<S: Simd>(&self, simd: S, k: usize, shifts: &Shifts) -> [S::F64; 2];
+}
+
+/// Adds samples to sums.
+struct Measure<'a, T> {
+    sampler: &'a T,
+    shifts: &'a Shifts,
+    samples: Range<usize>,
+    sums: &'a mut Sums,
+}
+
+impl<T: Sampler> Kernel for Measure<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let mut all = simd.f64(&self.sums.all);
+        let mut visible = simd.f64(&self.sums.visible);
+        let mut squares = simd.f64(&self.sums.squares);
+        for k in self.samples {
+            let [kernel, seen] = self.sampler.sample(simd, k, self.shifts);
+            all = all + kernel;
+            visible = visible + seen;
+            squares = squares + kernel * kernel;
+        }
+        self.sums.all = all.lanes();
+        self.sums.visible = visible.lanes();
+        self.sums.squares = squares.lanes();
+    }
 }
 
 /// The visible share of two patches, sampled until its standard error is at most `wanted`, or
-/// 32,768 samples have been taken.
+/// 65,536 samples have been taken.
 pub(crate) fn share(sampler: &impl Sampler, stream: Stream, wanted: f64) -> Share {
     let shifts = shifts(stream);
     let mut sums = Sums::default();
     let mut samples = 0..FEWEST;
     loop {
-        sampler.add(samples.clone(), &shifts, &mut sums);
+        dispatch(Measure {
+            sampler,
+            shifts: &shifts,
+            samples: samples.clone(),
+            sums: &mut sums,
+        });
         let share = sums.share();
         if share.error <= wanted || samples.end == MOST {
             return share;

@@ -3,6 +3,10 @@
 use super::*;
 use std::f64::consts::PI;
 
+fn exchange(i: &[DVec3], j: &[DVec3]) -> f64 {
+    super::exchange(i, j, 1e-12)
+}
+
 fn square(z: f64, up: bool, low: f64, high: f64) -> [DVec3; 4] {
     let corner = |x, y| DVec3::new(x, y, z);
     let corners = [
