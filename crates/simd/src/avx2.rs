@@ -25,6 +25,14 @@ registers! {
     less_f64, less_or_equal_f64, select_f64
 }
 
+/// Only where the processor has the instructions.
+#[inline(always)]
+unsafe fn narrow(numbers: F64) -> F32 {
+    let [low, high] = numbers.0;
+    // SAFETY: the caller's.
+    F32([unsafe { _mm256_set_m128(_mm256_cvtpd_ps(high), _mm256_cvtpd_ps(low)) }])
+}
+
 macro_rules! compare {
     ($name:ident, $register:ty, $compare:ident, $relation:ident, $bits:ident) => {
         /// Only where the processor has the instructions.

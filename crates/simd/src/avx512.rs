@@ -1,16 +1,22 @@
-//! AVX-512: eight doubles are one register, eight floats half of one.
+//! AVX-512: eight doubles are one register, eight floats half of one; comparisons give masks.
 #![allow(
     unsafe_code,
     reason = "intrinsics; see `run` for why their use is sound"
 )]
 
-use crate::avx2::F32;
 use crate::registers::{entrance, registers};
 use crate::{Float, InstructionSet, Kernel, LANES, Name, Simd};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 entrance!(Avx512, "avx512f,avx512vl,avx2");
+
+registers! {
+    F32: f32, [__m256; 1],
+    _mm256_loadu_ps, _mm256_storeu_ps, _mm256_set1_ps,
+    _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_min_ps, _mm256_max_ps,
+    less_f32, less_or_equal_f32, select_f32
+}
 
 registers! {
     F64: f64, [__m512d; 1],
@@ -21,21 +27,54 @@ registers! {
 
 /// Only where the processor has the instructions.
 #[inline(always)]
-unsafe fn less_f64(a: __m512d, b: __m512d) -> u8 {
+unsafe fn narrow(numbers: F64) -> F32 {
     // SAFETY: the caller's.
-    unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b) }
+    F32(numbers
+        .0
+        .map(|register| unsafe { _mm512_cvtpd_ps(register) }))
 }
 
-/// Only where the processor has the instructions.
-#[inline(always)]
-unsafe fn less_or_equal_f64(a: __m512d, b: __m512d) -> u8 {
-    // SAFETY: the caller's.
-    unsafe { _mm512_cmp_pd_mask::<_CMP_LE_OQ>(a, b) }
+macro_rules! masked {
+    (
+        $register:ty, $less:ident, $less_or_equal:ident, $compare:ident, $select:ident,
+        $blend:ident
+    ) => {
+        /// Only where the processor has the instructions.
+        #[inline(always)]
+        unsafe fn $less(a: $register, b: $register) -> u8 {
+            // SAFETY: the caller's.
+            unsafe { $compare::<_CMP_LT_OQ>(a, b) }
+        }
+
+        /// Only where the processor has the instructions.
+        #[inline(always)]
+        unsafe fn $less_or_equal(a: $register, b: $register) -> u8 {
+            // SAFETY: the caller's.
+            unsafe { $compare::<_CMP_LE_OQ>(a, b) }
+        }
+
+        /// Only where the processor has the instructions.
+        #[inline(always)]
+        unsafe fn $select(mask: u8, a: $register, b: $register) -> $register {
+            // SAFETY: the caller's.
+            unsafe { $blend(mask, b, a) }
+        }
+    };
 }
 
-/// Only where the processor has the instructions.
-#[inline(always)]
-unsafe fn select_f64(mask: u8, a: __m512d, b: __m512d) -> __m512d {
-    // SAFETY: the caller's.
-    unsafe { _mm512_mask_blend_pd(mask, b, a) }
-}
+masked!(
+    __m256,
+    less_f32,
+    less_or_equal_f32,
+    _mm256_cmp_ps_mask,
+    select_f32,
+    _mm256_mask_blend_ps
+);
+masked!(
+    __m512d,
+    less_f64,
+    less_or_equal_f64,
+    _mm512_cmp_pd_mask,
+    select_f64,
+    _mm512_mask_blend_pd
+);

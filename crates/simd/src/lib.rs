@@ -56,6 +56,8 @@ pub trait Simd: Copy {
     fn splat_f32(self, number: f32) -> Self::F32;
     /// The same number in all lanes.
     fn splat_f64(self, number: f64) -> Self::F64;
+    /// Rounds to single precision.
+    fn narrow(self, numbers: Self::F64) -> Self::F32;
 }
 
 /// Eight numbers. Comparisons answer with one bit per lane, the first lane lowest; nothing

@@ -33,6 +33,11 @@ impl Simd for Portable {
     fn splat_f64(self, number: f64) -> Array<f64> {
         Array([number; LANES])
     }
+
+    #[inline(always)]
+    fn narrow(self, numbers: Array<f64>) -> Array<f32> {
+        Array(numbers.0.map(|number| number as f32))
+    }
 }
 
 macro_rules! operator {

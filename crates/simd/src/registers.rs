@@ -174,6 +174,12 @@ macro_rules! entrance {
                 // SAFETY: see `run`.
                 unsafe { F64::splat(number) }
             }
+
+            #[inline(always)]
+            fn narrow(self, numbers: F64) -> F32 {
+                // SAFETY: see `run`.
+                unsafe { narrow(numbers) }
+            }
         }
     };
 }

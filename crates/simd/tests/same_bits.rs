@@ -73,6 +73,19 @@ macro_rules! everything {
     };
 }
 
+/// Doubles, to be rounded.
+struct Narrow([f64; LANES]);
+
+impl Kernel for Narrow {
+    type Output = [u32; LANES];
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> [u32; LANES] {
+        let lanes = simd.narrow(simd.f64(&self.0)).lanes();
+        lanes.map(f32::to_bits)
+    }
+}
+
 everything!(f32, f32, splat_f32);
 everything!(f64, f64, splat_f64);
 
@@ -92,6 +105,18 @@ proptest! {
     #[test]
     fn doubles(a in lanes(proptest::num::f64::ANY), b in lanes(proptest::num::f64::ANY)) {
         Everything::<f64>::check(a, b);
+    }
+}
+
+proptest! {
+    #[test]
+    fn rounding(mantissas in lanes(-1.0f64..1.0), exponent in -160..160i32) {
+        // From below the least single to beyond the largest.
+        let numbers = mantissas.map(|mantissa| mantissa * 2.0f64.powi(exponent));
+        let expected = numbers.map(|x| (x as f32).to_bits());
+        for set in InstructionSet::available() {
+            prop_assert_eq!(set.run(Narrow(numbers)), expected, "{}", set.name());
+        }
     }
 }
 
