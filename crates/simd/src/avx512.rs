@@ -15,14 +15,14 @@ registers! {
     F32: f32, [__m256; 1],
     _mm256_loadu_ps, _mm256_storeu_ps, _mm256_set1_ps,
     _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_min_ps, _mm256_max_ps,
-    less_f32, less_or_equal_f32, select_f32
+    _mm256_sqrt_ps, less_f32, less_or_equal_f32, select_f32
 }
 
 registers! {
     F64: f64, [__m512d; 1],
     _mm512_loadu_pd, _mm512_storeu_pd, _mm512_set1_pd,
     _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_min_pd, _mm512_max_pd,
-    less_f64, less_or_equal_f64, select_f64
+    _mm512_sqrt_pd, less_f64, less_or_equal_f64, select_f64
 }
 
 /// Only where the processor has the instructions.

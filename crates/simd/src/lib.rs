@@ -74,6 +74,8 @@ pub trait Float<T>:
     fn min(self, other: Self) -> Self;
     /// `if self > other { self } else { other }`, lane by lane: with NaN, `other`.
     fn max(self, other: Self) -> Self;
+    /// The square root; NaN of negative numbers.
+    fn sqrt(self) -> Self;
     /// Where `self < other`.
     fn less(self, other: Self) -> u8;
     /// Where `self <= other`.

@@ -84,16 +84,34 @@ impl<T: Copy + PartialOrd> Array<T> {
     }
 }
 
-impl<T> Float<T> for Array<T>
-where
-    T: Copy
-        + PartialOrd
-        + Add<Output = T>
-        + Sub<Output = T>
-        + Mul<Output = T>
-        + Div<Output = T>
-        + Neg<Output = T>,
+/// What both precisions have.
+pub(crate) trait Scalar:
+    Copy
+    + PartialOrd
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
 {
+    fn root(self) -> Self;
+}
+
+impl Scalar for f32 {
+    #[inline(always)]
+    fn root(self) -> f32 {
+        self.sqrt()
+    }
+}
+
+impl Scalar for f64 {
+    #[inline(always)]
+    fn root(self) -> f64 {
+        self.sqrt()
+    }
+}
+
+impl<T: Scalar> Float<T> for Array<T> {
     #[inline(always)]
     fn min(self, other: Array<T>) -> Array<T> {
         self.choose(other, |a, b| a < b)
@@ -102,6 +120,11 @@ where
     #[inline(always)]
     fn max(self, other: Array<T>) -> Array<T> {
         self.choose(other, |a, b| a > b)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Array<T> {
+        Array(self.0.map(T::root))
     }
 
     #[inline(always)]

@@ -7,7 +7,7 @@ macro_rules! registers {
         $name:ident: $scalar:ty, [$register:ty; $count:literal],
         $load:ident, $store:ident, $splat:ident,
         $add:ident, $sub:ident, $mul:ident, $div:ident, $min:ident, $max:ident,
-        $less:ident, $less_or_equal:ident, $select:ident
+        $sqrt:ident, $less:ident, $less_or_equal:ident, $select:ident
     ) => {
         #[derive(Clone, Copy)]
         pub(crate) struct $name([$register; $count]);
@@ -65,6 +65,16 @@ macro_rules! registers {
             #[inline(always)]
             fn max(self, other: $name) -> $name {
                 self.max_registers(other)
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> $name {
+                let mut result = self.0;
+                for result in &mut result {
+                    // SAFETY: lanes exist only where the processor has the instructions.
+                    *result = unsafe { $sqrt(*result) };
+                }
+                $name(result)
             }
 
             registers!(@compare $name, less, $less);

@@ -17,7 +17,7 @@ macro_rules! everything {
             #[inline(always)]
             fn run<S: Simd>(self, simd: S) -> Self::Output {
                 let (a, b) = (simd.$load(&self.0), simd.$load(&self.1));
-                let numbers = [a + b, a - b, a * b, a / b, -a, a.min(b), a.max(b)];
+                let numbers = [a + b, a - b, a * b, a / b, -a, a.min(b), a.max(b), a.sqrt()];
                 let mut results: Vec<_> = numbers.into_iter().map(Float::lanes).collect();
                 results.push(simd.$splat(self.0[3]).lanes());
                 results.push(a.select(SELECTED, b).lanes());
@@ -42,6 +42,7 @@ macro_rules! everything {
                     each(|a, _| -a),
                     each(|a, b| if a < b { a } else { b }),
                     each(|a, b| if a > b { a } else { b }),
+                    each(|a, _| a.sqrt()),
                     [self.0[3]; LANES],
                     std::array::from_fn(|k| {
                         if SELECTED >> k & 1 != 0 {
