@@ -5,6 +5,7 @@
 //!
 //! This crate knows nothing of what its numbers mean, nor of files.
 
+use rayon::prelude::*;
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
@@ -84,20 +85,56 @@ impl SymmetricMatrix {
         }
     }
 
-    /// The sum of each full row, summed in `f64` in the order of storage.
+    /// The sum of each full row, in `f64`; the same for any number of threads.
     pub fn row_sums(&self) -> Vec<f64> {
+        let values = self.values();
+        let bands: Vec<Vec<f64>> = bands(self.size)
+            .into_par_iter()
+            .map(|rows| band_sums(values, rows))
+            .collect();
         let mut sums = vec![0.0; self.size];
-        for (i, row) in self.rows() {
-            let mut sum = 0.0;
-            for (value, below) in row.iter().zip(&mut sums[..i]) {
-                let value = f64::from(*value);
-                sum += value;
-                *below += value;
-            }
-            sums[i] += sum;
+        for band in bands {
+            sums.iter_mut()
+                .zip(band)
+                .for_each(|(sum, of_band)| *sum += of_band);
         }
         sums
     }
+}
+
+/// Rows that are summed together, about as many numbers in each: fixed, so that sums do not depend
+/// on the number of threads.
+const BANDS: usize = 16;
+
+fn bands(size: usize) -> Vec<Range<usize>> {
+    let bound = |k: usize| (size as f64 * (k as f64 / BANDS as f64).sqrt()).round() as usize;
+    (0..BANDS).map(|k| bound(k)..bound(k + 1)).collect()
+}
+
+/// What some stored rows add to the sums of full rows.
+fn band_sums(values: &[f32], rows: Range<usize>) -> Vec<f64> {
+    /// Sums side by side, so that one addition need not wait for the last.
+    const SUMS: usize = 8;
+    let mut sums = vec![0.0; rows.end];
+    for i in rows {
+        let row = &values[packed_row(i)];
+        let (row, last_of_row) = row.as_chunks::<SUMS>();
+        let (below, last_below) = sums[..i].as_chunks_mut::<SUMS>();
+        let mut partial = [0.0; SUMS];
+        for (values, below) in row.iter().zip(below) {
+            for k in 0..SUMS {
+                let value = f64::from(values[k]);
+                partial[k] += value;
+                below[k] += value;
+            }
+        }
+        for (k, (value, below)) in last_of_row.iter().zip(last_below).enumerate() {
+            partial[k] += f64::from(*value);
+            *below += f64::from(*value);
+        }
+        sums[i] += partial.iter().sum::<f64>();
+    }
+    sums
 }
 
 /// How many values a matrix of the given size stores.
