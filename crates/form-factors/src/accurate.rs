@@ -1,15 +1,16 @@
-//! The accurate estimator of one pair: *classify* it (hidden, clear, or partly hidden), *integrate*
-//! the unoccluded kernel, *measure* the visible share where there is doubt.
+//! The accurate estimator of one pair: after it has been classified (hidden, clear, or partly
+//! hidden), *integrate* the unoccluded kernel, and *measure* the visible share where there is doubt.
 
-use crate::blocker::{Blocker, Effect, Heights};
+use crate::blocker::Blocker;
 use crate::element::Element;
 use crate::lines::{self, Lines, MOST_BLOCKERS};
+use crate::obstacles::{Between, Obstacles};
 use crate::random::Stream;
 use crate::segments::{Blocked, Segments};
 use crate::target::Target;
 use crate::unoccluded;
 use crate::visible::{Share, share};
-use radiosity_geometry::{Mesh, Sight};
+use radiosity_geometry::Mesh;
 
 /// The share of a row's tolerance that the unoccluded exchange may use up.
 const UNOCCLUDED_SHARE: f64 = 0.02;
@@ -26,23 +27,6 @@ pub(crate) struct Accurate<'a> {
     targets: Vec<Target>,
     tolerance: f64,
     plane_tolerance: f64,
-}
-
-/// What may stand between a patch and a face.
-pub(crate) enum Between<'a> {
-    /// The faces, with the heights of the patch's corners.
-    Few(Vec<(Blocker, Heights)>),
-    /// Too many to list.
-    Many(&'a Sight<'a>),
-}
-
-/// What stands between two patches of which one does not hide the other.
-enum Doubt<'a> {
-    None,
-    /// These may hide a part.
-    Partly(Vec<Blocker>),
-    /// Anything may.
-    Unknown(&'a Sight<'a>),
 }
 
 /// `S_ij` and its standard error.
@@ -63,73 +47,37 @@ impl<'a> Accurate<'a> {
         }
     }
 
-    pub(crate) fn between<'s>(&self, i: usize, sight: &'s Sight<'s>) -> Between<'s> {
-        let few = sight.faces().map(|faces| self.blockers(i, faces));
-        few.map_or(Between::Many(sight), Between::Few)
-    }
-
-    /// The exchange of a pair of patches.
-    pub(crate) fn exchange(&self, i: usize, j: usize, between: &Between<'_>) -> Exchange {
-        let Some(doubt) = self.classify(i, j, between) else {
-            return Exchange::default();
-        };
+    /// The exchange of a pair of patches, with this between them.
+    pub(crate) fn exchange(
+        &self,
+        [i, j]: [usize; 2],
+        between: &Between,
+        obstacles: &Obstacles,
+    ) -> Exchange {
         let error = UNOCCLUDED_SHARE * self.tolerance;
         let (element_i, element_j) = (&self.elements[i], &self.elements[j]);
-        let unoccluded = unoccluded::exchange(element_i, element_j, error, self.plane_tolerance);
+        let tolerance = obstacles.occluders.plane_tolerance();
+        let unoccluded = unoccluded::exchange(element_i, element_j, error, tolerance);
         let clear = unoccluded.value;
         if clear == 0.0 {
             return unoccluded;
         }
-        let share = match &doubt {
-            Doubt::None => return unoccluded,
-            Doubt::Partly(blockers) => self.past(i, j, blockers, clear),
-            Doubt::Unknown(sight) => self.among(i, j, Blocked::Somehow(sight), clear),
+        let share = match between {
+            Between::Few(faces) if faces.is_empty() => return unoccluded,
+            Between::Few(faces) => {
+                let faces = faces.iter();
+                let blockers: Vec<Blocker> = faces.map(|&f| *obstacles.blocker(f)).collect();
+                self.past(i, j, &blockers, clear)
+            }
+            Between::Many => {
+                let faces = [i, j].map(|patch| self.mesh.patches[patch].face);
+                self.among(i, j, Blocked::Somehow(&obstacles.occluders, faces), clear)
+            }
         };
         Exchange {
             value: share.value * clear,
             error: share.error * clear + unoccluded.error,
         }
-    }
-
-    /// `None` if one patch is hidden from the other.
-    fn classify<'s>(&self, i: usize, j: usize, between: &Between<'s>) -> Option<Doubt<'s>> {
-        match between {
-            Between::Few(few) => self.judge(j, few),
-            Between::Many(sight) => {
-                let [from, to] = [i, j].map(|k| &self.mesh.patches[k].polygon);
-                match sight.narrowed(from, to).faces() {
-                    Some(faces) => self.judge(j, &self.blockers(i, faces)),
-                    None => Some(Doubt::Unknown(sight)),
-                }
-            }
-        }
-    }
-
-    /// Blockers, with the heights of a patch's corners.
-    fn blockers(&self, i: usize, faces: &[u32]) -> Vec<(Blocker, Heights)> {
-        let corners = self.mesh.patches[i].polygon.padded_corners();
-        let blocker = |face: &u32| {
-            let blocker = Blocker::new(&self.mesh.faces[*face as usize]);
-            (blocker, blocker.heights(corners))
-        };
-        faces.iter().map(blocker).collect()
-    }
-
-    fn judge(&self, j: usize, few: &[(Blocker, Heights)]) -> Option<Doubt<'static>> {
-        let corners = self.mesh.patches[j].polygon.padded_corners();
-        let mut partly = Vec::new();
-        for (blocker, at_i) in few {
-            match at_i.effect(&blocker.heights(corners), self.plane_tolerance) {
-                Effect::Hides => return None,
-                Effect::Partly => partly.push(*blocker),
-                Effect::Nothing => {}
-            }
-        }
-        Some(if partly.is_empty() {
-            Doubt::None
-        } else {
-            Doubt::Partly(partly)
-        })
     }
 
     /// The visible share past a few blockers: by lines across the larger patch, where those are

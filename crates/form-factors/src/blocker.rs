@@ -1,6 +1,9 @@
-//! What stands between two patches: whether it hides all, nothing, or some of one from the other.
+//! What stands between two parts of the scene: whether it hides all, nothing, or some of one from
+//! the other.
 
+use crate::part::Part;
 use radiosity_geometry::{DVec3, Face};
+use radiosity_simd::{Float, Simd};
 
 /// A face as the half-spaces that make it: its plane first, then one through each edge, facing
 /// inwards. A triangle has its last edge twice.
@@ -10,7 +13,7 @@ pub(crate) struct Blocker {
 }
 
 pub(crate) const PLANES: usize = 5;
-const EDGES: usize = PLANES - 1;
+pub(crate) const EDGES: usize = PLANES - 1;
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plane {
@@ -18,11 +21,7 @@ pub(crate) struct Plane {
     pub(crate) offset: f64,
 }
 
-/// The heights of a patch's corners (the last of a triangle twice) over each plane of a blocker.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Heights([[f64; 4]; PLANES]);
-
-/// What a blocker does to a pair of patches.
+/// What a blocker does to a pair of parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Effect {
     Nothing,
@@ -30,16 +29,31 @@ pub(crate) enum Effect {
     Partly,
 }
 
+/// Where points lie: all on or above a plane, all on or below it.
+#[derive(Clone, Copy)]
+struct Side {
+    above: bool,
+    below: bool,
+}
+
 impl Plane {
-    fn through(point: DVec3, normal: DVec3) -> Plane {
+    pub(crate) fn through(point: DVec3, normal: DVec3) -> Plane {
         Plane {
             normal,
             offset: normal.dot(point),
         }
     }
 
-    fn height(&self, point: DVec3) -> f64 {
+    pub(crate) fn height(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.offset
+    }
+
+    /// [`Plane::height`] of points in lanes.
+    #[inline(always)]
+    pub(crate) fn heights<S: Simd>(&self, simd: S, [x, y, z]: [S::F64; 3]) -> S::F64 {
+        let n = self.normal;
+        simd.splat_f64(n.x) * x + simd.splat_f64(n.y) * y + simd.splat_f64(n.z) * z
+            - simd.splat_f64(self.offset)
     }
 }
 
@@ -57,56 +71,79 @@ impl Blocker {
         }
     }
 
-    pub(crate) fn heights(&self, corners: &[DVec3; 4]) -> Heights {
-        Heights(self.planes.map(|plane| corners.map(|c| plane.height(c))))
-    }
-}
-
-impl Heights {
-    /// What the blocker does to segments between two patches, by the segments between their
+    /// What the blocker does to segments between two parts, by the segments between their
     /// corners: all others cross its plane within the hull of where these do. Heights up to
     /// `tolerance` count as zero.
-    pub(crate) fn effect(&self, other: &Heights, tolerance: f64) -> Effect {
-        let ([plane_i, edges_i @ ..], [plane_j, edges_j @ ..]) = (&self.0, &other.0);
-        let above = |heights: &[f64; 4]| heights.iter().all(|&h| h >= -tolerance);
-        let below = |heights: &[f64; 4]| heights.iter().all(|&h| h <= tolerance);
-        let one_side = above(plane_i) && above(plane_j) || below(plane_i) && below(plane_j);
-        let beside = (0..EDGES).any(|e| below(&edges_i[e]) && below(&edges_j[e]));
-        if one_side || beside {
+    #[inline(always)]
+    pub(crate) fn effect<S: Simd>(&self, simd: S, i: &Part, j: &Part, tolerance: f64) -> Effect {
+        let [plane, edges @ ..] = &self.planes;
+        let tolerance = simd.splat_f64(tolerance);
+        let (plane_i, plane_j) = (i.heights(simd, plane), j.heights(simd, plane));
+        let (side_i, side_j) = (side(plane_i, tolerance), side(plane_j, tolerance));
+        if side_i.above && side_j.above || side_i.below && side_j.below {
             return Effect::Nothing;
         }
-        let opposite = above(plane_i) && below(plane_j) || below(plane_i) && above(plane_j);
+        let mut edges_i = [plane_i; EDGES];
+        let mut edges_j = [plane_j; EDGES];
+        for (e, edge) in edges.iter().enumerate() {
+            edges_i[e] = i.heights(simd, edge);
+            edges_j[e] = j.heights(simd, edge);
+            if side(edges_i[e], tolerance).below && side(edges_j[e], tolerance).below {
+                return Effect::Nothing;
+            }
+        }
+        let opposite = side_i.above && side_j.below || side_i.below && side_j.above;
         if !opposite {
             return Effect::Partly;
         }
+        let to_plane_i = plane_i.max(-plane_i).lanes();
+        let to_plane_j = plane_j.max(-plane_j);
         let mut hides = true;
-        for (edge_i, edge_j) in edges_i.iter().zip(edges_j) {
-            let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-            for a in 0..4 {
-                for b in 0..4 {
-                    // The height over the edge where the segment crosses the plane.
-                    let (to_plane_i, to_plane_j) = (plane_i[a].abs(), plane_j[b].abs());
-                    let across = to_plane_i + to_plane_j;
-                    if across > 0.0 {
-                        let at = (edge_i[a] * to_plane_j + edge_j[b] * to_plane_i) / across;
-                        least = least.min(at);
-                        most = most.max(at);
-                    }
-                }
+        for (edge_i, edge_j) in edges_i.into_iter().zip(edges_j) {
+            let edge_i = edge_i.lanes();
+            let (mut inside, mut outside) = (0, 0);
+            for corner in 0..i.distinct() {
+                // The height over the edge where the segment crosses the plane, times `across`.
+                let to_plane = simd.splat_f64(to_plane_i[corner]);
+                let at = simd.splat_f64(edge_i[corner]) * to_plane_j + edge_j * to_plane;
+                let margin = tolerance * (to_plane + to_plane_j);
+                inside |= margin.less(at);
+                outside |= at.less(-margin);
             }
-            if most <= tolerance {
+            if inside == 0 {
                 return Effect::Nothing;
             }
-            hides &= least >= -tolerance;
+            hides &= outside == 0;
         }
         if hides { Effect::Hides } else { Effect::Partly }
+    }
+}
+
+#[inline(always)]
+fn side<F: Float<f64>>(heights: F, tolerance: F) -> Side {
+    Side {
+        above: heights.less(-tolerance) == 0,
+        below: tolerance.less(heights) == 0,
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use radiosity_geometry::{Divisions, Shape, Surface, subdivide};
+    use radiosity_geometry::{Divisions, FaceId, Shape, Surface, subdivide};
+    use radiosity_simd::{InstructionSet, Kernel};
+
+    struct EffectOf<'a>(&'a Blocker, [&'a Part; 2]);
+
+    impl Kernel for EffectOf<'_> {
+        type Output = Effect;
+
+        #[inline(always)]
+        fn run<S: Simd>(self, simd: S) -> Effect {
+            let [i, j] = self.1;
+            self.0.effect(simd, i, j, 1e-12)
+        }
+    }
 
     fn square(center: DVec3, edge: f64) -> Shape {
         Shape::Parallelogram {
@@ -128,11 +165,17 @@ mod tests {
         });
         let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
         let blocker = Blocker::new(&mesh.faces[1]);
-        let heights =
-            [0, 2].map(|k: usize| blocker.heights(mesh.faces[k].polygon.padded_corners()));
-        let [one, other] = [(0, 1), (1, 0)].map(|(i, j)| heights[i].effect(&heights[j], 1e-12));
-        assert_eq!(one, other);
-        one
+        let [a, b] = [0, 2].map(|k: usize| {
+            let face = &mesh.faces[k];
+            Part::on_face(FaceId(k as u32), face, face.polygon.padded_corners())
+        });
+        let mut found = Vec::new();
+        for set in InstructionSet::available() {
+            found.push(set.run(EffectOf(&blocker, [&a, &b])));
+            found.push(set.run(EffectOf(&blocker, [&b, &a])));
+        }
+        assert!(found.iter().all(|effect| *effect == found[0]));
+        found[0]
     }
 
     #[test]

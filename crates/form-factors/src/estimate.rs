@@ -1,22 +1,22 @@
-//! Stage 2: the loop over all pairs.
+//! Stage 2: the walk over all pairs, and what each estimator makes of them.
 //!
-//! Rows are independent and are filled in parallel; each entry depends on its pair alone, so
-//! the result is the same for any number of threads.
+//! Patches are met in tiles of eight. What may stand between two tiles is narrowed down on the
+//! way from groups of tiles to single patches, so most pairs cost no visibility test at all.
+//! Tiles of rows are filled in parallel; each entry depends on its pair alone, so the result is
+//! the same for any number of threads.
 
 use crate::accurate::{Accurate, Exchange};
-use crate::exchange::all_pairs;
 use crate::fixed::FixedSums;
 use crate::monte_carlo::{MonteCarlo, Strata};
-use crate::points::{Sample, regular};
+use crate::obstacles::{Between, Obstacles};
+use crate::part::Part;
+use crate::regular::{Regular, Scratch};
 use crate::surroundings::{Surroundings, look_around};
+use crate::tiles::{Group, Tile, Tiling};
 use crate::{Estimator, FormFactors};
-use radiosity_geometry::{DVec3, Face, FaceId, Mesh, Occluders, Patch, Polygon};
-use radiosity_matrix::{SymmetricMatrix, packed_len, packed_row, row_blocks_mut};
+use radiosity_geometry::{Mesh, Patch};
+use radiosity_matrix::{SymmetricMatrix, packed_len, row_blocks_mut};
 use rayon::prelude::*;
-use std::ops::Range;
-
-/// Rows per task.
-const BLOCK_ROWS: usize = 8;
 
 /// Estimates all form factors of a mesh. `progress` is told how many further pairs are done,
 /// from any thread.
@@ -27,43 +27,54 @@ pub fn estimate(mesh: &Mesh, estimator: Estimator, progress: &(dyn Fn(u64) + Syn
 /// [`estimate`] in two steps, with a rehearsal between them.
 pub struct Estimation<'a> {
     mesh: &'a Mesh,
-    occluders: Occluders,
+    /// By patch.
+    parts: Vec<Part>,
+    tiling: Tiling,
+    obstacles: Obstacles,
     method: Method<'a>,
     scale: f64,
 }
 
 /// The estimator with what it prepares.
 enum Method<'a> {
-    /// The regular points of each patch.
-    Regular(Vec<Vec<Sample>>),
+    Regular(Regular),
     MonteCarlo(MonteCarlo),
     Accurate(Accurate<'a>),
 }
 
-/// Neighbouring pairs that a rehearsal takes together, as rows do.
-const REHEARSED_RUN: usize = 16;
+/// What the estimators reuse from pair to pair.
+#[derive(Default)]
+struct Room {
+    regular: Scratch,
+    strata: Strata,
+}
 
 impl<'a> Estimation<'a> {
     /// Prepares what every pair needs.
     pub fn new(mesh: &'a Mesh, estimator: Estimator) -> Estimation<'a> {
-        let occluders = Occluders::new(mesh);
+        let obstacles = Obstacles::new(mesh);
+        let tiling = Tiling::new(mesh);
         let method = match estimator {
-            Estimator::Regular { points } => {
-                let patches = mesh.patches.iter();
-                Method::Regular(patches.map(|p| regular(&p.polygon, points)).collect())
-            }
+            Estimator::Regular { points } => Method::Regular(Regular::new(mesh, &tiling, points)),
             Estimator::MonteCarlo {
                 points,
                 pairs,
                 seed,
             } => Method::MonteCarlo(MonteCarlo::new(points, pairs, seed)),
             Estimator::Accurate { tolerance } => {
-                Method::Accurate(Accurate::new(mesh, tolerance, occluders.plane_tolerance()))
+                let plane_tolerance = obstacles.occluders.plane_tolerance();
+                Method::Accurate(Accurate::new(mesh, tolerance, plane_tolerance))
             }
+        };
+        let part = |patch: &Patch| {
+            let face = &mesh.faces[patch.face.index()];
+            Part::on_face(patch.face, face, patch.polygon.padded_corners())
         };
         Estimation {
             mesh,
-            occluders,
+            parts: mesh.patches.iter().map(part).collect(),
+            tiling,
+            obstacles,
             method,
             scale: 1.0 / mesh.total_area(),
         }
@@ -72,26 +83,27 @@ impl<'a> Estimation<'a> {
     /// Estimates at least so many pairs, spread over all of them, and throws them away: for
     /// predicting how long [`Estimation::run`] will take. Returns how many pairs they were.
     pub fn rehearse(&self, pairs: u64) -> u64 {
-        let size = self.mesh.patches.len() as f64;
+        let Tiling { tiles, groups } = &self.tiling;
         let run = |k: u64| {
             // The R2 sequence (Roberts 2018) visits the square of pairs evenly.
-            let spread = |inverse: f64| (((k + 1) as f64 * inverse).fract() * size) as usize;
-            let (i, j) = (spread(0.754_877_666_246_693), spread(0.569_840_290_998_053));
-            let face_j = self.mesh.patches[j].face;
-            let end = self.mesh.faces[face_j.index()].patches().end;
-            let run = j..end.min(j + REHEARSED_RUN);
-            let length = run.len() as u64;
+            let spread = |inverse: f64, size: usize| {
+                (((k + 1) as f64 * inverse).fract() * size as f64) as usize
+            };
+            let tile = spread(0.754_877_666_246_693, tiles.len());
+            let group = &groups[spread(0.569_840_290_998_053, groups.len())];
             let mut sum = 0.0;
-            if face_j != self.mesh.patches[i].face {
-                self.pairs(i, face_j, run, |_, exchange| sum += exchange.value);
-            }
+            let mut room = Room::default();
+            let add = |_, _, value: f32, _| sum += value;
+            self.against(tile, group, &mut room, &mut { add });
             std::hint::black_box(sum);
-            length
+            let patches = |tile: &Tile| tile.patches.len() as u64;
+            let of_group = tiles[group.tiles.clone()].iter().map(patches);
+            patches(&tiles[tile]) * of_group.sum::<u64>()
         };
         let mut done = 0;
         let mut next = 0;
         while done < pairs {
-            let batch = ((pairs - done) / REHEARSED_RUN as u64).max(8);
+            let batch = rayon::current_num_threads() as u64;
             done += (next..next + batch).into_par_iter().map(run).sum::<u64>();
             next += batch;
         }
@@ -103,92 +115,133 @@ impl<'a> Estimation<'a> {
         let size = self.mesh.patches.len();
         let mut values = vec![0.0; packed_len(size)];
         let errors = FixedSums::new(size);
-        row_blocks_mut(size, &mut values, BLOCK_ROWS)
+        self.rows_of_tiles(&mut values)
             .into_par_iter()
-            .for_each(|(rows, block)| {
-                let first = packed_len(rows.start);
-                for i in rows {
-                    let range = packed_row(i);
-                    let row = &mut block[range.start - first..range.end - first];
-                    self.row(i, row, &errors);
-                    progress(i as u64);
-                }
+            .enumerate()
+            .for_each_init(Room::default, |room, (tile, mut rows)| {
+                self.fill(tile, &mut rows, room, &errors);
+                progress(rows.iter().map(|row| row.len() as u64).sum());
             });
-        let patches = self.mesh.patches.par_iter();
-        let areas = patches.clone().map(|patch| patch.area).collect();
+        let areas = self.mesh.patches.iter().map(|patch| patch.area).collect();
         let exchange = SymmetricMatrix::new(size, values).expect("one value per pair was made");
         let errors = match self.method {
             Method::Accurate(_) => Some(errors.into_sums()),
             Method::Regular(_) | Method::MonteCarlo(_) => None,
         };
-        let surroundings: Vec<Surroundings> = patches
-            .enumerate()
-            .map(|(index, patch)| look_around(&self.occluders, patch, index))
-            .collect();
+        let look = |patch| look_around(self.mesh, &self.obstacles, patch);
+        let surroundings: Vec<Surroundings> = (0..size).into_par_iter().map(look).collect();
         FormFactors::new(areas, exchange, errors.as_deref(), &surroundings)
     }
 
-    /// Fills the zeroed entries `(i, 0 .. i)`, face by face, and adds the errors of
-    /// the factors to those of both rows.
-    fn row(&self, i: usize, row: &mut [f32], errors: &FixedSums) {
-        let own_face = self.mesh.patches[i].face.index();
-        for (index, face) in self.mesh.faces[..own_face].iter().enumerate() {
-            self.pairs(i, FaceId(index as u32), face.patches(), |j, exchange| {
-                row[j] = (exchange.value * self.scale) as f32;
-                errors.add(i, exchange.error / self.mesh.patches[i].area);
-                errors.add(j, exchange.error / self.mesh.patches[j].area);
-            });
+    /// The entries `(i, 0 .. i)` of the patches of each tile.
+    fn rows_of_tiles<'v>(&self, values: &'v mut [f32]) -> Vec<Vec<&'v mut [f32]>> {
+        let rows = row_blocks_mut(self.mesh.patches.len(), values, 1);
+        let mut rows: Vec<_> = rows.into_iter().map(|(_, row)| row).collect();
+        let tiles = self.tiling.tiles.iter();
+        let mut take = |&patch: &usize| std::mem::take(&mut rows[patch]);
+        tiles
+            .map(|tile| tile.patches.iter().map(&mut take).collect())
+            .collect()
+    }
+
+    /// Fills the zeroed rows of a tile, and adds the errors of the factors to those of both rows.
+    fn fill(&self, tile: usize, rows: &mut [&mut [f32]], room: &mut Room, errors: &FixedSums) {
+        let patches = &self.tiling.tiles[tile].patches;
+        let area = |patch: usize| self.mesh.patches[patch].area;
+        let mut tell = |lane: usize, j: usize, value: f32, error: f64| {
+            // Only small faces share their tile with patches that come after.
+            if let Some(entry) = rows[lane].get_mut(j) {
+                *entry = value;
+                if error > 0.0 {
+                    let i = patches[lane];
+                    errors.add(i, error / area(i));
+                    errors.add(j, error / area(j));
+                }
+            }
+        };
+        let groups = self.tiling.groups.iter();
+        for group in groups.take_while(|group| group.tiles.start <= tile) {
+            self.against(tile, group, room, &mut tell);
         }
     }
 
-    /// Estimates the exchange of patch `i` with some patches of another face; tells those that
-    /// may not be zero.
-    fn pairs(
+    /// Estimates the exchange of the patches of a tile with those of a group; tells those that may
+    /// not be zero: lane, index, the exchange in units of the total area, its error in scene units.
+    fn against(
         &self,
-        i: usize,
-        face_id: FaceId,
-        patches: Range<usize>,
-        mut tell: impl FnMut(usize, Exchange),
+        tile: usize,
+        group: &Group,
+        room: &mut Room,
+        tell: &mut impl FnMut(usize, usize, f32, f64),
     ) {
-        let (patch, face) = (&self.mesh.patches[i], &self.mesh.faces[face_id.index()]);
-        if !face_each_other(patch, face) {
+        let tiles = &self.tiling.tiles;
+        let part = &tiles[tile].part;
+        let Some(between) = self.view(&Between::Many, part, &group.part) else {
             return;
-        }
-        let occluders = &self.occluders;
-        let sight = occluders.sight(patch.face, &patch.polygon, face_id, &face.polygon);
-        let visible = |p: DVec3, q: DVec3| !sight.blocked(p, q);
-        let plain = |value: f64| Exchange { value, error: 0.0 };
-        match &self.method {
-            Method::Regular(points) => {
-                for j in patches {
-                    let of_i = (&points[i][..], patch.normal);
-                    let of_j = (&points[j][..], face.normal);
-                    tell(j, plain(all_pairs(of_i, of_j, visible)));
+        };
+        for other in group.tiles.clone() {
+            let part_j = &tiles[other].part;
+            let Some(between) = self.view(&between, part, part_j) else {
+                continue;
+            };
+            if let Method::Regular(regular) = &self.method {
+                regular.prepare([tile, other], &mut room.regular);
+            }
+            for (lane, &i) in tiles[tile].patches.iter().enumerate() {
+                if let Some(between) = self.view(&between, &self.parts[i], part_j) {
+                    self.exchange((i, lane), &tiles[other], &between, room, tell);
                 }
             }
+        }
+    }
+
+    /// What may stand between two parts, given what may between larger ones around them; `None` if
+    /// they cannot see each other's fronts.
+    fn view(&self, between: &Between, from: &Part, to: &Part) -> Option<Between> {
+        let same_face = matches!((from.face, to.face), (Some((i, _)), Some((j, _))) if i == j);
+        if same_face || !from.may_face(to, self.obstacles.occluders.plane_tolerance()) {
+            return None;
+        }
+        self.obstacles.narrow(between, from, to)
+    }
+
+    /// Estimates the exchange of a patch with those of a tile.
+    fn exchange(
+        &self,
+        (i, lane): (usize, usize),
+        tile: &Tile,
+        between: &Between,
+        room: &mut Room,
+        tell: &mut impl FnMut(usize, usize, f32, f64),
+    ) {
+        let patches = &self.mesh.patches;
+        let face = patches[i].face;
+        let others = tile.patches.iter().copied();
+        let others = others.enumerate().filter(|&(_, j)| patches[j].face != face);
+        match &self.method {
+            Method::Regular(regular) => {
+                let values = regular.exchange(lane, between, &self.obstacles, &mut room.regular);
+                others.for_each(|(k, j)| tell(lane, j, values[k], 0.0));
+            }
             Method::MonteCarlo(monte_carlo) => {
-                let mut strata = Strata::default();
-                for j in patches {
-                    let of_j = (j, &self.mesh.patches[j]);
-                    let value = monte_carlo.estimate((i, patch), of_j, &mut strata, visible);
-                    tell(j, plain(value));
+                for (_, j) in others {
+                    let ends = [(i, &patches[i]), (j, &patches[j])];
+                    let value = monte_carlo.estimate(ends, &mut room.strata, |p, q| {
+                        !between.cuts(&self.obstacles.occluders, (face, p), (patches[j].face, q))
+                    });
+                    tell(lane, j, (value * self.scale) as f32, 0.0);
                 }
             }
             Method::Accurate(accurate) => {
-                let between = accurate.between(i, &sight);
-                patches.for_each(|j| tell(j, accurate.exchange(i, j, &between)));
+                for (_, j) in others {
+                    let parts = [&self.parts[i], &self.parts[j]];
+                    if let Some(between) = self.view(between, parts[0], parts[1]) {
+                        let exchange = accurate.exchange([i, j], &between, &self.obstacles);
+                        let Exchange { value, error } = exchange;
+                        tell(lane, j, (value * self.scale) as f32, error);
+                    }
+                }
             }
         }
     }
-}
-
-/// Whether some point of the patch and some point of the face lie in front of each other.
-fn face_each_other(patch: &Patch, face: &Face) -> bool {
-    let reaches_over = |polygon: &Polygon, normal: DVec3, origin: DVec3| {
-        let corners = polygon.corners().iter();
-        corners.map(|&c| normal.dot(c - origin)).any(|h| h > 0.0)
-    };
-    let corner_of_face = face.polygon.corners()[0];
-    reaches_over(&face.polygon, patch.normal, patch.centroid)
-        && reaches_over(&patch.polygon, face.normal, corner_of_face)
 }

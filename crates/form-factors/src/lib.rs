@@ -28,11 +28,18 @@ mod fixed;
 mod gauss;
 mod lines;
 mod monte_carlo;
+mod obstacles;
+mod part;
 mod points;
 mod random;
+mod regular;
+mod samples;
 mod segments;
+mod shade;
 mod surroundings;
 mod target;
+mod tiles;
+mod transfer;
 mod unoccluded;
 mod visible;
 
@@ -44,7 +51,7 @@ pub use estimate::{Estimation, estimate};
 
 /// Raise it whenever the same mesh would give other form factors, because of a change here, in
 /// `geometry`, or in the random numbers: it is part of their key.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// How the double integral of a pair is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

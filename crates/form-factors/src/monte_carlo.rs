@@ -35,8 +35,7 @@ impl MonteCarlo {
     /// alone.
     pub(crate) fn estimate(
         &self,
-        (i, patch_i): (usize, &Patch),
-        (j, patch_j): (usize, &Patch),
+        [(i, patch_i), (j, patch_j)]: [(usize, &Patch); 2],
         order: &mut Strata,
         mut visible: impl FnMut(DVec3, DVec3) -> bool,
     ) -> f64 {

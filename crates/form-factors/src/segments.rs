@@ -3,15 +3,15 @@
 use crate::blocker::Blocker;
 use crate::target::{Points, Target, height, kernel, points};
 use crate::visible::{Sampler, Shifts, coordinate};
-use radiosity_geometry::Sight;
+use radiosity_geometry::{FaceId, Occluders};
 use radiosity_simd::{Float, LANES, Simd};
 
 /// What may block a segment.
 pub(crate) enum Blocked<'a> {
     /// These faces.
     By(&'a [Blocker]),
-    /// Any face of the scene.
-    Somehow(&'a Sight<'a>),
+    /// Any face of the scene but these, on which the segments end.
+    Somehow(&'a Occluders, [FaceId; 2]),
 }
 
 /// Segments between two patches.
@@ -37,7 +37,9 @@ impl Sampler for Segments<'_> {
         let weight = p.area * q.area * kernel(simd, (i, &p), (j, &q));
         let blocked = match self.blocked {
             Blocked::By(blockers) => cut_by_any(simd, blockers, &p, &q),
-            Blocked::Somehow(sight) => blocked_somehow(sight, &p, &q, weight.lanes()),
+            Blocked::Somehow(occluders, faces) => {
+                blocked_somehow((occluders, faces), &p, &q, weight.lanes())
+            }
         };
         [weight, simd.splat_f64(0.0).select(blocked, weight)]
     }
@@ -61,7 +63,7 @@ fn cut_by_any<S: Simd>(
 /// Which segments of any weight are blocked, one after the other.
 #[inline(always)]
 fn blocked_somehow<F: Float<f64>>(
-    sight: &Sight<'_>,
+    (occluders, [i, j]): (&Occluders, [FaceId; 2]),
     p: &Points<F>,
     q: &Points<F>,
     weights: [f64; LANES],
@@ -69,7 +71,7 @@ fn blocked_somehow<F: Float<f64>>(
     let [p, q] = [p, q].map(Points::lanes);
     let mut blocked = 0;
     for lane in 0..LANES {
-        let hidden = weights[lane] > 0.0 && sight.blocked(p[lane], q[lane]);
+        let hidden = weights[lane] > 0.0 && occluders.blocked(i, p[lane], j, q[lane]);
         blocked |= u8::from(hidden) << lane;
     }
     blocked

@@ -3,17 +3,21 @@
 //! Measured by rays, independently of the factors: together they account for everything that a
 //! patch sees.
 
-use crate::points::jittered;
+use crate::blocker::{Blocker, Plane};
+use crate::obstacles::Obstacles;
 use crate::random::Stream;
-use crate::visible::{Shifts, folded, shifts};
-use radiosity_geometry::{DVec2, DVec3, FaceId, Occluders, Patch, Ray};
-use radiosity_simd::LANES;
-use std::f64::consts::TAU;
+use crate::target::{Points, Target, dot, height, points};
+use crate::visible::{Shifts, coordinate, shifts};
+use radiosity_geometry::{DVec3, FaceId, Mesh, Patch, Ray};
+use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
+use std::f64::consts::FRAC_PI_4;
 
 /// Rays from each patch, under each of eight shifts. A power of two.
 const RAYS: usize = 32;
 /// Tells these shifts from those of pairs of patches.
 const SEED: u64 = 1;
+/// So many faces are tried in turn; more are found by a tree.
+const FASTER_THAN_TREE: usize = 32;
 
 /// Shares of all that a patch sees, by form factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,35 +28,35 @@ pub(crate) struct Surroundings {
     pub(crate) error: f64,
 }
 
-/// What a ray has met.
-enum Met {
-    Front,
-    Back,
-    Nothing,
+/// By shift: the weights of all rays, of those that met backs, and of those that met nothing.
+struct Sums {
+    all: [f64; LANES],
+    backs: [f64; LANES],
+    background: [f64; LANES],
 }
 
 /// Looks around from the patch of this index.
-pub(crate) fn look_around(occluders: &Occluders, patch: &Patch, index: usize) -> Surroundings {
-    let shifts = shifts(Stream::of_pair(SEED, index, index));
-    // By shift: weights of all rays, of those that met backs, and of those that met nothing.
-    let mut sums = [[0.0; 3]; LANES];
-    for (lane, sums) in sums.iter_mut().enumerate() {
-        for k in 0..RAYS {
-            let (weight, ray) = ray(patch, k, &shifts, lane);
-            sums[0] += weight;
-            match meet(occluders, &ray, patch.face) {
-                Met::Front => {}
-                Met::Back => sums[1] += weight,
-                Met::Nothing => sums[2] += weight,
-            }
-        }
-    }
-    let total = |k: usize| sums.iter().map(|sums| sums[k]).sum::<f64>();
-    let (all, backs, background) = (total(0), total(1), total(2));
+pub(crate) fn look_around(mesh: &Mesh, obstacles: &Obstacles, index: usize) -> Surroundings {
+    let patch = &mesh.patches[index];
+    let sums = dispatch(Look {
+        obstacles,
+        patch,
+        in_front: in_front(mesh, obstacles, patch),
+        shifts: &shifts(Stream::of_pair(SEED, index, index)),
+    });
+    let total = |lanes: &[f64; LANES]| lanes.iter().sum::<f64>();
+    let (all, backs, background) = (
+        total(&sums.all),
+        total(&sums.backs),
+        total(&sums.background),
+    );
     let share = (backs + background) / all;
-    let residual = |sums: &[f64; 3]| (sums[1] + sums[2] - share * sums[0]).powi(2);
+    let residual = |lane: usize| {
+        let found = sums.backs[lane] + sums.background[lane];
+        (found - share * sums.all[lane]).powi(2)
+    };
     let lanes = LANES as f64;
-    let squares: f64 = sums.iter().map(residual).sum();
+    let squares: f64 = (0..LANES).map(residual).sum();
     let scatter = (lanes * squares / (lanes - 1.0)).sqrt() / all;
     // What is smaller than the share of one ray may have gone unseen.
     let unseen = 1.0 / (lanes * RAYS as f64);
@@ -63,23 +67,179 @@ pub(crate) fn look_around(occluders: &Occluders, patch: &Patch, index: usize) ->
     }
 }
 
-/// A ray from a point of the patch, with the area that it stands for, in a direction of density
-/// `cos / pi` (Malley's method).
-fn ray(patch: &Patch, k: usize, shifts: &Shifts, lane: usize) -> (f64, Ray) {
-    let at = |c: usize| folded(k, c, shifts[c][lane]);
-    let sample = jittered(&patch.polygon, 1, 0, DVec2::new(at(0), at(1)));
-    let (sin, cos) = libm::sincos(TAU * at(2));
-    let (tangent, bitangent) = patch.normal.any_orthonormal_pair();
-    let squared = at(3);
-    let aside: DVec3 = squared.sqrt() * (cos * tangent + sin * bitangent);
-    let direction = aside + (1.0 - squared).sqrt() * patch.normal;
-    (sample.area, Ray::new(sample.point, direction))
+/// The faces in front of a patch, unless there are too many in the scene.
+fn in_front<'a>(mesh: &Mesh, obstacles: &'a Obstacles, patch: &Patch) -> Option<Vec<&'a Blocker>> {
+    if mesh.faces.len() > FASTER_THAN_TREE {
+        return None;
+    }
+    let plane = Plane::through(patch.centroid, patch.normal);
+    let tolerance = obstacles.occluders.plane_tolerance();
+    let ids = (0..mesh.faces.len() as u32).map(FaceId);
+    let is_in_front = |id: &FaceId| {
+        let corners = mesh.faces[id.index()].polygon.corners().iter();
+        *id != patch.face && corners.map(|&c| plane.height(c)).any(|h| h > tolerance)
+    };
+    Some(
+        ids.filter(is_in_front)
+            .map(|id| obstacles.blocker(id))
+            .collect(),
+    )
 }
 
-fn meet(occluders: &Occluders, ray: &Ray, from: FaceId) -> Met {
-    match occluders.closest_hit(ray, 0.0, f64::INFINITY, Some(from)) {
-        None => Met::Nothing,
-        Some(hit) if hit.front => Met::Front,
-        Some(_) => Met::Back,
+struct Look<'a> {
+    obstacles: &'a Obstacles,
+    patch: &'a Patch,
+    in_front: Option<Vec<&'a Blocker>>,
+    shifts: &'a Shifts,
+}
+
+/// Rays, one per lane.
+struct Rays<F> {
+    from: Points<F>,
+    direction: [F; 3],
+}
+
+/// What rays have met, one bit per lane.
+struct Met {
+    backs: u8,
+    nothing: u8,
+}
+
+impl Kernel for Look<'_> {
+    type Output = Sums;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Sums {
+        let zero = simd.splat_f64(0.0);
+        let (mut all, mut backs, mut background) = (zero, zero, zero);
+        let target = Target::new(self.patch);
+        for k in 0..RAYS {
+            let rays = rays(simd, (self.patch, &target), k, self.shifts);
+            let met = match &self.in_front {
+                Some(faces) => meet(simd, faces, &rays),
+                None => trace(self.obstacles, self.patch.face, &rays),
+            };
+            let weight = rays.from.area;
+            all = all + weight;
+            backs = backs + weight.select(met.backs, zero);
+            background = background + weight.select(met.nothing, zero);
+        }
+        Sums {
+            all: all.lanes(),
+            backs: backs.lanes(),
+            background: background.lanes(),
+        }
     }
+}
+
+/// Rays from points of a patch, with the area that each stands for, in directions of density
+/// `cos / pi` (Malley's method).
+#[inline(always)]
+fn rays<S: Simd>(
+    simd: S,
+    (patch, target): (&Patch, &Target),
+    k: usize,
+    shifts: &Shifts,
+) -> Rays<S::F64> {
+    let (u, v) = (
+        coordinate(simd, k, 0, shifts),
+        coordinate(simd, k, 1, shifts),
+    );
+    let from = points(simd, target, u, v);
+    let (a, b) = (
+        coordinate(simd, k, 2, shifts),
+        coordinate(simd, k, 3, shifts),
+    );
+    let [x, y] = on_disk(simd, a, b);
+    let one = simd.splat_f64(1.0);
+    let z = (one - x * x - y * y).max(simd.splat_f64(0.0)).sqrt();
+    let (tangent, bitangent) = patch.normal.any_orthonormal_pair();
+    let mut direction = [x, y, z];
+    for (axis, direction) in direction.iter_mut().enumerate() {
+        *direction = x * simd.splat_f64(tangent[axis])
+            + y * simd.splat_f64(bitangent[axis])
+            + z * simd.splat_f64(patch.normal[axis]);
+    }
+    Rays { from, direction }
+}
+
+/// The unit square onto the unit disk, by Shirley and Chiu's map ("A Low Distortion Map Between
+/// Disk and Square", 1997).
+#[inline(always)]
+fn on_disk<S: Simd>(simd: S, a: S::F64, b: S::F64) -> [S::F64; 2] {
+    let one = simd.splat_f64(1.0);
+    let (a, b) = (a + a - one, b + b - one);
+    let steep = (a * a).less(b * b);
+    let (long, short) = (b.select(steep, a), a.select(steep, b));
+    let [sin, cos] = sin_cos(simd, simd.splat_f64(FRAC_PI_4) * (short / long));
+    let (along, across) = (long * cos, long * sin);
+    [across.select(steep, along), along.select(steep, across)]
+}
+
+/// Sine and cosine of angles up to an eighth of a turn, to 3e-8: by Taylor's series.
+#[inline(always)]
+fn sin_cos<S: Simd>(simd: S, x: S::F64) -> [S::F64; 2] {
+    let (one, square) = (simd.splat_f64(1.0), x * x);
+    let (mut sin, mut cos) = (one, one);
+    for k in [8.0, 6.0, 4.0, 2.0] {
+        sin = one - square * sin * simd.splat_f64(1.0 / (k * (k + 1.0)));
+        cos = one - square * cos * simd.splat_f64(1.0 / (k * (k - 1.0)));
+    }
+    [x * sin, cos]
+}
+
+/// What rays meet first of some faces.
+///
+/// A ray meets a face if it comes nearer to its plane, and if where it crosses that its height over
+/// each edge, times a positive number, is not negative.
+#[inline(always)]
+fn meet<S: Simd>(simd: S, faces: &[&Blocker], rays: &Rays<S::F64>) -> Met {
+    let zero = simd.splat_f64(0.0);
+    let [x, y, z] = rays.direction;
+    let mut nearest = simd.splat_f64(f64::INFINITY);
+    let mut met = Met {
+        backs: 0,
+        nothing: !0,
+    };
+    for face in faces {
+        let [plane, edges @ ..] = &face.planes;
+        let (from, along) = (
+            height(simd, plane, &rays.from),
+            dot(simd, plane.normal, x, y, z),
+        );
+        let (distance, speed) = (from.max(-from), along.max(-along));
+        let mut hits = (from * along).less(zero);
+        for edge in edges {
+            let at =
+                height(simd, edge, &rays.from) * speed + dot(simd, edge.normal, x, y, z) * distance;
+            hits &= zero.less_or_equal(at);
+        }
+        let at = distance / speed;
+        hits &= at.less(nearest);
+        nearest = at.select(hits, nearest);
+        met.backs = met.backs & !hits | from.less(zero) & hits;
+        met.nothing &= !hits;
+    }
+    met
+}
+
+/// What rays meet first of all faces but one.
+#[inline(always)]
+fn trace<F: Float<f64>>(obstacles: &Obstacles, except: FaceId, rays: &Rays<F>) -> Met {
+    let from = rays.from.lanes();
+    let [x, y, z] = &rays.direction;
+    let (x, y, z) = (x.lanes(), y.lanes(), z.lanes());
+    let mut met = Met {
+        backs: 0,
+        nothing: 0,
+    };
+    for lane in 0..LANES {
+        let ray = Ray::new(from[lane], DVec3::new(x[lane], y[lane], z[lane]));
+        let hit = obstacles
+            .occluders
+            .closest_hit(&ray, 0.0, f64::INFINITY, Some(except));
+        met.nothing |= u8::from(hit.is_none()) << lane;
+        met.backs |= u8::from(hit.is_some_and(|hit| !hit.front)) << lane;
+    }
+    met
 }

@@ -118,7 +118,7 @@ pub(crate) fn kernel<S: Simd>(
 }
 
 #[inline(always)]
-fn dot<S: Simd>(simd: S, n: DVec3, x: S::F64, y: S::F64, z: S::F64) -> S::F64 {
+pub(crate) fn dot<S: Simd>(simd: S, n: DVec3, x: S::F64, y: S::F64, z: S::F64) -> S::F64 {
     simd.splat_f64(n.x) * x + simd.splat_f64(n.y) * y + simd.splat_f64(n.z) * z
 }
 

@@ -142,11 +142,5 @@ pub(crate) fn coordinate<S: Simd>(simd: S, k: usize, c: usize, shifts: &Shifts) 
     twice.min(one + one - twice)
 }
 
-/// [`coordinate`] under one shift.
-pub(crate) fn folded(k: usize, c: usize, shift: f64) -> f64 {
-    let twice = 2.0 * (on_lattice(k, c) + shift).fract();
-    twice.min(2.0 - twice)
-}
-
 #[cfg(test)]
 mod tests;

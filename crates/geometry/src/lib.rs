@@ -13,6 +13,7 @@
 //!
 //! This crate knows nothing of files, colours, light or names.
 
+mod between;
 mod bounds;
 mod build;
 mod bvh;
@@ -30,10 +31,10 @@ mod queries;
 mod ray;
 mod shaft;
 mod shape;
-mod sight;
 mod slabs;
 mod subdivide;
 
+pub use between::End;
 pub use bounds::Aabb;
 pub use camera::{Camera, CameraError};
 pub use check::ShapeError;
@@ -46,5 +47,4 @@ pub use polygon::Polygon;
 pub use polygon_mesh::PolygonMesh;
 pub use ray::Ray;
 pub use shape::Shape;
-pub use sight::Sight;
 pub use subdivide::{Divisions, MAX_PATCHES, MeshError, Surface, count_patches, subdivide};

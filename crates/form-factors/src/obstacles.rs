@@ -1,0 +1,109 @@
+//! *Classify*: what may stand between two parts of the scene, from the coarse to the fine.
+
+use crate::blocker::{Blocker, Effect};
+use crate::part::Part;
+use radiosity_geometry::{DVec3, FaceId, Mesh, Occluders};
+use radiosity_simd::{Kernel, Simd, dispatch};
+
+/// The faces of a scene as what stands in the way.
+pub(crate) struct Obstacles {
+    pub(crate) occluders: Occluders,
+    blockers: Vec<Blocker>,
+}
+
+/// What may stand between two parts of which one does not hide the other.
+#[derive(Clone, Debug)]
+pub(crate) enum Between {
+    /// These faces; none if the view is clear.
+    Few(Vec<FaceId>),
+    /// Too many to list.
+    Many,
+}
+
+impl Obstacles {
+    pub(crate) fn new(mesh: &Mesh) -> Obstacles {
+        Obstacles {
+            occluders: Occluders::new(mesh),
+            blockers: mesh.faces.iter().map(Blocker::new).collect(),
+        }
+    }
+
+    pub(crate) fn blocker(&self, face: FaceId) -> &Blocker {
+        &self.blockers[face.index()]
+    }
+
+    /// What may stand between two parts, given what may between larger ones around them; `None`
+    /// if something hides one from the other.
+    pub(crate) fn narrow(&self, between: &Between, from: &Part, to: &Part) -> Option<Between> {
+        let listed;
+        let faces = match between {
+            Between::Few(faces) => faces,
+            Between::Many => match self.occluders.between([from.end(), to.end()]) {
+                None => return Some(Between::Many),
+                Some(faces) => {
+                    listed = faces;
+                    &listed
+                }
+            },
+        };
+        if faces.is_empty() {
+            return Some(Between::Few(Vec::new()));
+        }
+        let narrow = Narrow {
+            obstacles: self,
+            faces,
+            ends: [from, to],
+        };
+        dispatch(narrow).map(Between::Few)
+    }
+}
+
+/// For single segments the tree of all faces is faster than a longer list.
+const FASTER_THAN_TREE: usize = 12;
+
+impl Between {
+    /// Whether one of these, or of all faces, cuts the segment from `p` on face `i` to `q` on `j`.
+    pub(crate) fn cuts(
+        &self,
+        occluders: &Occluders,
+        (i, p): (FaceId, DVec3),
+        (j, q): (FaceId, DVec3),
+    ) -> bool {
+        match self {
+            Between::Few(faces) if faces.len() <= FASTER_THAN_TREE => {
+                faces.iter().any(|&face| occluders.cuts(face, p, q))
+            }
+            _ => occluders.blocked(i, p, j, q),
+        }
+    }
+}
+
+/// Leaves of faces those that hide some of one end from the other.
+struct Narrow<'a> {
+    obstacles: &'a Obstacles,
+    faces: &'a [FaceId],
+    ends: [&'a Part; 2],
+}
+
+impl Kernel for Narrow<'_> {
+    type Output = Option<Vec<FaceId>>;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Option<Vec<FaceId>> {
+        let [from, to] = self.ends;
+        let tolerance = self.obstacles.occluders.plane_tolerance();
+        let mut partly = Vec::new();
+        for &face in self.faces {
+            if [from.end().face, to.end().face].contains(&Some(face)) {
+                continue;
+            }
+            let blocker = self.obstacles.blocker(face);
+            match blocker.effect(simd, from, to, tolerance) {
+                Effect::Hides => return None,
+                Effect::Partly => partly.push(face),
+                Effect::Nothing => {}
+            }
+        }
+        Some(partly)
+    }
+}

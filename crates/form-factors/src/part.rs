@@ -1,0 +1,102 @@
+//! Convex parts of the scene: patches, and groups of them that are judged together.
+
+use crate::blocker::Plane;
+use arrayvec::ArrayVec;
+use radiosity_geometry::{DVec3, End, Face, FaceId};
+use radiosity_simd::{LANES, Simd};
+
+/// The convex hull of up to eight points, and the plane it lies in, if it does.
+#[derive(Clone, Debug)]
+pub(crate) struct Part {
+    corners: ArrayVec<DVec3, LANES>,
+    /// The corners by axis, over and over.
+    lanes: [[f64; LANES]; 3],
+    pub(crate) face: Option<(FaceId, Plane)>,
+}
+
+impl Part {
+    /// A polygon on a face.
+    pub(crate) fn on_face(id: FaceId, face: &Face, corners: &[DVec3; 4]) -> Part {
+        let plane = Plane::through(face.polygon.corners()[0], face.normal);
+        Part::new(corners, Some((id, plane)))
+    }
+
+    /// The smallest parallelogram, along two edges of a face, around points on it.
+    pub(crate) fn around_on_face(
+        id: FaceId,
+        face: &Face,
+        points: impl Iterator<Item = DVec3>,
+    ) -> Part {
+        let [origin, b, c, d] = *face.polygon.padded_corners();
+        let (u, v) = (b - origin, d - origin);
+        debug_assert!(!face.polygon.is_triangle() || c == d);
+        let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
+        let scale = 1.0 / (uu * vv - uv * uv);
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for point in points {
+            let (along_u, along_v) = ((point - origin).dot(u), (point - origin).dot(v));
+            let parameters = [
+                scale * (vv * along_u - uv * along_v),
+                scale * (uu * along_v - uv * along_u),
+            ];
+            for k in 0..2 {
+                low[k] = low[k].min(parameters[k]);
+                high[k] = high[k].max(parameters[k]);
+            }
+        }
+        let at = |s: f64, t: f64| origin + s * u + t * v;
+        let [[u0, v0], [u1, v1]] = [low, high];
+        let corners = [at(u0, v0), at(u1, v0), at(u1, v1), at(u0, v1)];
+        Part::on_face(id, face, &corners)
+    }
+
+    /// The box around points.
+    pub(crate) fn around(points: impl Iterator<Item = DVec3>) -> Part {
+        let bounds = radiosity_geometry::Aabb::around(points);
+        let ends = [bounds.min, bounds.max];
+        let corner = |k: usize| DVec3::new(ends[k & 1].x, ends[k >> 1 & 1].y, ends[k >> 2].z);
+        let corners: [DVec3; LANES] = std::array::from_fn(corner);
+        Part::new(&corners, None)
+    }
+
+    fn new(corners: &[DVec3], face: Option<(FaceId, Plane)>) -> Part {
+        let lane = |axis: usize, k: usize| corners[k % corners.len()][axis];
+        Part {
+            corners: corners.iter().copied().collect(),
+            lanes: std::array::from_fn(|axis| std::array::from_fn(|k| lane(axis, k))),
+            face,
+        }
+    }
+
+    /// How many of the lanes differ.
+    pub(crate) fn distinct(&self) -> usize {
+        self.corners.len()
+    }
+
+    pub(crate) fn end(&self) -> End<'_> {
+        End {
+            corners: &self.corners,
+            face: self.face.map(|(face, _)| face),
+        }
+    }
+
+    /// The heights of the corners over a plane.
+    #[inline(always)]
+    pub(crate) fn heights<S: Simd>(&self, simd: S, plane: &Plane) -> S::F64 {
+        let [x, y, z] = &self.lanes;
+        plane.heights(simd, [simd.f64(x), simd.f64(y), simd.f64(z)])
+    }
+
+    /// Whether a point of each may lie in front of the other, by more than `tolerance`.
+    pub(crate) fn may_face(&self, other: &Part, tolerance: f64) -> bool {
+        let reaches_over = |part: &Part, of: &Part| {
+            let corners = part.corners.iter();
+            of.face.is_none_or(|(_, plane)| {
+                corners
+                    .map(|&c| plane.height(c))
+                    .any(|height| height > tolerance)
+            })
+        };
+        reaches_over(other, self) && reaches_over(self, other)
+    }
+}

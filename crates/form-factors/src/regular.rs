@@ -1,0 +1,147 @@
+//! The regular rule: all pairs of the fixed points of two patches, eight patches at a time.
+
+use crate::exchange::kernel;
+use crate::obstacles::{Between, Obstacles};
+use crate::samples::{Lanes, Local, Samples, Units};
+use crate::shade::{Mark, Over, Shade};
+use crate::tiles::Tiling;
+use crate::transfer::{Source, Transfer};
+use radiosity_geometry::{Mesh, Occluders};
+use radiosity_simd::{Kernel, LANES, Simd, dispatch};
+
+/// The regular points of all patches.
+pub(crate) struct Regular {
+    /// By tile.
+    samples: Vec<Samples>,
+    units: Units,
+}
+
+/// What is computed once for a pair of tiles, and room for the rest.
+#[derive(Default)]
+pub(crate) struct Scratch {
+    tiles: Option<[usize; 2]>,
+    local: [Local; 2],
+    shades: [Shade; 2],
+    sources: Vec<Source>,
+    blocked: Vec<u8>,
+}
+
+impl Regular {
+    pub(crate) fn new(mesh: &Mesh, tiling: &Tiling, points: u32) -> Regular {
+        let units = Units::of(mesh);
+        let samples = |tile| Samples::new(mesh, tile, points, units);
+        Regular {
+            samples: tiling.tiles.iter().map(samples).collect(),
+            units,
+        }
+    }
+
+    /// Turns to another pair of tiles.
+    pub(crate) fn prepare(&self, [i, j]: [usize; 2], scratch: &mut Scratch) {
+        if scratch.tiles.is_none_or(|tiles| tiles[0] != i) {
+            scratch.shades[0].clear();
+        }
+        scratch.shades[1].clear();
+        scratch.tiles = Some([i, j]);
+        dispatch(Localize {
+            samples: [&self.samples[i], &self.samples[j]],
+            local: &mut scratch.local,
+        });
+    }
+
+    /// The exchange of a patch of the first tile with each of the second, in units of the total
+    /// area.
+    pub(crate) fn exchange(
+        &self,
+        lane: usize,
+        between: &Between,
+        obstacles: &Obstacles,
+        scratch: &mut Scratch,
+    ) -> Lanes<f32> {
+        let is_clear = matches!(between, Between::Few(few) if few.is_empty());
+        if !is_clear {
+            self.mark(lane, between, obstacles, scratch);
+        }
+        let Scratch {
+            local: [from, to],
+            sources,
+            blocked,
+            ..
+        } = scratch;
+        dispatch(Transfer {
+            from: (from, lane),
+            to,
+            blocked: (!is_clear).then_some(blocked),
+            sources,
+        })
+    }
+
+    /// Marks the segments that are blocked.
+    fn mark(&self, lane: usize, between: &Between, obstacles: &Obstacles, scratch: &mut Scratch) {
+        let Some(tiles) = scratch.tiles else { return };
+        let [i, j] = tiles.map(|tile| &self.samples[tile]);
+        let [shade_i, shade_j] = &mut scratch.shades;
+        scratch.blocked.clear();
+        scratch.blocked.resize(i.points.len() * j.points.len(), 0);
+        match between {
+            Between::Few(faces) => {
+                for &face in faces {
+                    let over = Over {
+                        blocker: obstacles.blocker(face),
+                        unit: self.units.length,
+                        tolerance: obstacles.occluders.plane_tolerance(),
+                    };
+                    let own = |lane: usize| u8::from(j.faces[lane] == face) << lane;
+                    dispatch(Mark {
+                        from: (shade_i.heights(face, &over, i), lane),
+                        to: shade_j.heights(face, &over, j),
+                        lanes: !(0..LANES).map(own).sum::<u8>(),
+                        blocked: &mut scratch.blocked,
+                    });
+                }
+            }
+            Between::Many => {
+                let occluders = &obstacles.occluders;
+                let marks = scratch.blocked.chunks_exact_mut(i.points.len());
+                for (q, marks) in marks.enumerate() {
+                    for (p, mark) in marks.iter_mut().enumerate() {
+                        *mark = blocked(occluders, (i, p, lane), (j, q), self.units.length);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Which of the segments from a point of one patch to those of eight others are blocked.
+fn blocked(
+    occluders: &Occluders,
+    (i, p, lane): (&Samples, usize, usize),
+    (j, q): (&Samples, usize),
+    unit: f64,
+) -> u8 {
+    let from = i.point(p, lane);
+    let blocked = |to_lane: usize| {
+        let to = j.point(q, to_lane);
+        kernel(from, i.normal(lane), to, j.normal(to_lane)) > 0.0
+            && occluders.blocked(i.faces[lane], unit * from, j.faces[to_lane], unit * to)
+    };
+    (0..LANES).map(|lane| u8::from(blocked(lane)) << lane).sum()
+}
+
+struct Localize<'a> {
+    samples: [&'a Samples; 2],
+    local: &'a mut [Local; 2],
+}
+
+impl Kernel for Localize<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let [i, j] = self.samples;
+        let [local_i, local_j] = self.local;
+        i.localize(simd, i, local_i);
+        j.localize(simd, i, local_j);
+    }
+}
