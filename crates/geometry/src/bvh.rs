@@ -39,6 +39,12 @@ pub(crate) trait Visitor {
     fn visit<S: Simd>(&mut self, simd: S, leaf: usize, limit: &mut f64) -> ControlFlow<()>;
 }
 
+/// What looks at the items within a shaft.
+pub(crate) trait ShaftVisitor {
+    /// Looks at an item of a leaf. `Break` ends the search.
+    fn visit<S: Simd>(&mut self, simd: S, leaf: usize, lane: usize) -> ControlFlow<()>;
+}
+
 /// So few leaves are looked at faster than the boxes around them.
 pub(crate) const FEW_LEAVES: usize = 3;
 /// Each level leaves up to seven of its eight children waiting.
@@ -92,20 +98,15 @@ impl Bvh {
         }
     }
 
-    /// Calls `visit(leaf, lane)` for every item whose box reaches into a shaft.
+    /// Shows a visitor every item whose box reaches into a shaft.
     #[inline(always)]
-    pub(crate) fn within<S: Simd>(
-        &self,
-        simd: S,
-        shaft: &Shaft,
-        mut visit: impl FnMut(usize, usize) -> ControlFlow<()>,
-    ) {
+    pub(crate) fn within<S: Simd>(&self, simd: S, shaft: &Shaft, visitor: &mut impl ShaftVisitor) {
         let mut stack = ArrayVec::<Child, STACK>::new();
         stack.push(Child::ROOT);
         while let Some(child) = stack.pop() {
             if let Some(leaf) = child.leaf() {
                 for lane in bits(shaft.meets(simd, &self.leaves[leaf])) {
-                    if visit(leaf, lane).is_break() {
+                    if visitor.visit(simd, leaf, lane).is_break() {
                         return;
                     }
                 }

@@ -16,6 +16,7 @@
 mod between;
 mod bounds;
 mod build;
+mod bundle;
 mod bvh;
 mod camera;
 mod check;
@@ -34,8 +35,8 @@ mod shape;
 mod slabs;
 mod subdivide;
 
-pub use between::End;
 pub use bounds::Aabb;
+pub use bundle::{Bundle, Points};
 pub use camera::{Camera, CameraError};
 pub use check::ShapeError;
 pub use film::{Film, PixelFilter};

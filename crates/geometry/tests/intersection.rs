@@ -3,7 +3,7 @@
 mod shapes;
 
 use proptest::prelude::*;
-use radiosity_geometry::{DVec3, End, FaceId, Mesh, Occluders, Ray, Shape};
+use radiosity_geometry::{DVec3, FaceId, Mesh, Occluders, Ray, Shape};
 use shapes::{icosphere, mesh_of, parallelogram, surfaces_of};
 
 fn hit(mesh: &Mesh, origin: [f64; 3], direction: [f64; 3]) -> Option<(f64, bool)> {
@@ -188,13 +188,11 @@ fn a_mesh_shadows_itself_but_its_ends_do_not() {
 /// Whether a segment is cut by one of the few faces between those of its ends.
 fn cut_by_listed(mesh: &Mesh, occluders: &Occluders, ends: [(FaceId, DVec3); 2]) -> bool {
     let [(_, p), (_, q)] = ends;
-    let end = |face: FaceId| End {
-        corners: mesh.faces[face.index()].polygon.corners(),
-        face: Some(face),
-    };
-    let faces = occluders.between(ends.map(|(face, _)| end(face)));
+    let bounds = |(face, _): (FaceId, DVec3)| mesh.faces[face.index()].polygon.bounds();
+    let faces = occluders.between(ends.map(bounds), mesh.faces.len());
     let mut faces = faces.expect("they are few").into_iter();
-    faces.any(|face| occluders.cuts(face, p, q))
+    let ends = ends.map(|(face, _)| face);
+    faces.any(|face| !ends.contains(&face) && occluders.cuts(face, p, q))
 }
 
 fn point(range: std::ops::Range<f64>) -> impl Strategy<Value = DVec3> {

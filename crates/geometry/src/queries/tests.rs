@@ -2,10 +2,11 @@
 //! all faces.
 
 use super::*;
+use crate::bundle::{BlockedOf, Bundle};
 use crate::occluders::{Occluder, ordered};
 use crate::{Divisions, Mesh, PolygonMesh, Shape, Surface, subdivide};
 use proptest::prelude::*;
-use radiosity_simd::InstructionSet;
+use radiosity_simd::{InstructionSet, LANES};
 
 /// Corners on a coarse lattice, so that rays graze edges, meet corners and tie.
 fn lattice_point() -> impl Strategy<Value = DVec3> {
@@ -94,6 +95,34 @@ fn check_segment(occluders: &Occluders, ends: [DVec3; 2], except: [FaceId; 2]) {
     }
 }
 
+/// Eight segments at a time; those of no length are not asked for.
+fn check_bundle(occluders: &Occluders, segments: &[(DVec3, DVec3)], except: [FaceId; 2]) {
+    let lanes = |end: fn(&(DVec3, DVec3)) -> DVec3| {
+        std::array::from_fn(|axis| std::array::from_fn(|lane| end(&segments[lane])[axis]))
+    };
+    let bundle = Bundle {
+        points: [lanes(|ends| ends.0), lanes(|ends| ends.1)],
+        faces: except.map(|face| [face; LANES]),
+    };
+    let (mut wanted, mut blocked) = (0, 0);
+    for (lane, &(p, q)) in segments.iter().enumerate() {
+        let ray = Ray::new(p, q - p);
+        let tilts = |face: &Occluder| only_rounding_tilts(face, &ray);
+        if p != q && !occluders.faces.iter().any(tilts) {
+            wanted |= 1 << lane;
+            blocked |= u8::from(occluders.blocked(except[0], p, except[1], q)) << lane;
+        }
+    }
+    for set in InstructionSet::available() {
+        let found = set.run(BlockedOf {
+            occluders,
+            bundle: &bundle,
+            wanted,
+        });
+        assert_eq!(found, blocked, "{}", set.name());
+    }
+}
+
 proptest! {
     #[test]
     fn all_instruction_sets_agree_with_the_scalar_test(
@@ -103,6 +132,8 @@ proptest! {
     ) {
         let occluders = Occluders::new(&mesh);
         let last = FaceId(mesh.faces.len() as u32 - 1);
+        check_bundle(&occluders, &lattice, [FaceId(0), last]);
+        check_bundle(&occluders, &random, [FaceId(0), last]);
         for (p, q) in lattice.into_iter().chain(random) {
             if p == q {
                 continue;
