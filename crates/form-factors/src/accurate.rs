@@ -14,9 +14,9 @@ use radiosity_geometry::Mesh;
 
 /// The share of a row's tolerance that the unoccluded exchange may use up.
 const UNOCCLUDED_SHARE: f64 = 0.02;
-/// How many of a row's patches are partly hidden, as one in so many: the tolerance is shared among
-/// them. Rows with more of them have a larger error, and say so.
-const PARTLY_HIDDEN_ONE_IN: f64 = 10.0;
+/// The tolerance of a row is shared as if one in so many of its patches were partly hidden, each
+/// with as large a factor. Rows with more of them have a larger error, and say so.
+const PARTLY_HIDDEN_ONE_IN: f64 = 40.0;
 /// Seed of all shifts.
 const SEED: u64 = 0;
 
@@ -119,10 +119,13 @@ impl<'a> Accurate<'a> {
     }
 
     /// The error of a share that is the pair's part of the tolerance of either row.
+    ///
+    /// The work is least where errors go with the square root of factors, and `n` such errors, of
+    /// factors that sum to 1, sum to the tolerance if each is `tolerance sqrt(F / n)`.
     fn wanted(&self, i: usize, j: usize, clear: f64) -> f64 {
-        let smaller = self.area(i).min(self.area(j));
+        let factor = clear / self.area(i).min(self.area(j));
         let pairs = self.mesh.patches.len() as f64 / PARTLY_HIDDEN_ONE_IN;
-        smaller * self.tolerance / pairs.max(1.0) / clear
+        self.tolerance / (pairs.max(1.0) * factor).sqrt()
     }
 
     fn area(&self, patch: usize) -> f64 {

@@ -10,6 +10,7 @@ use radiosity_simd::{Float, Simd};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Blocker {
     pub(crate) planes: [Plane; PLANES],
+    corners: [DVec3; 4],
 }
 
 pub(crate) const PLANES: usize = 5;
@@ -68,6 +69,7 @@ impl Blocker {
         let plane = Plane::through(corners[0], face.normal);
         Blocker {
             planes: [plane, edge(0), edge(1), edge(2), edge(3)],
+            corners: *face.polygon.padded_corners(),
         }
     }
 
@@ -77,10 +79,14 @@ impl Blocker {
     #[inline(always)]
     pub(crate) fn effect<S: Simd>(&self, simd: S, i: &Part, j: &Part, tolerance: f64) -> Effect {
         let [plane, edges @ ..] = &self.planes;
+        let tolerance_of_heights = tolerance;
         let tolerance = simd.splat_f64(tolerance);
         let (plane_i, plane_j) = (i.heights(simd, plane), j.heights(simd, plane));
         let (side_i, side_j) = (side(plane_i, tolerance), side(plane_j, tolerance));
         if side_i.above && side_j.above || side_i.below && side_j.below {
+            return Effect::Nothing;
+        }
+        if self.is_behind(i, tolerance_of_heights) || self.is_behind(j, tolerance_of_heights) {
             return Effect::Nothing;
         }
         let mut edges_i = [plane_i; EDGES];
@@ -119,6 +125,16 @@ impl Blocker {
     }
 }
 
+impl Blocker {
+    /// Whether nothing of the blocker is in front of the part, if that has a front.
+    fn is_behind(&self, part: &Part, tolerance: f64) -> bool {
+        part.face.is_some_and(|(_, plane)| {
+            let heights = self.corners.map(|corner| plane.height(corner));
+            heights.into_iter().all(|height| height <= tolerance)
+        })
+    }
+}
+
 #[inline(always)]
 fn side<F: Float<f64>>(heights: F, tolerance: F) -> Side {
     Side {
@@ -153,11 +169,20 @@ mod tests {
         }
     }
 
+    /// A unit square.
+    fn facing_down(center: DVec3) -> Shape {
+        Shape::Parallelogram {
+            corner: center - 0.5 * (DVec3::X + DVec3::Y),
+            edge_a: DVec3::Y,
+            edge_b: DVec3::X,
+        }
+    }
+
     fn effect(between: Shape) -> Effect {
         let shapes = [
             square(DVec3::ZERO, 1.0),
             between,
-            square(2.0 * DVec3::Z, 1.0),
+            facing_down(2.0 * DVec3::Z),
         ];
         let surfaces = shapes.map(|shape| Surface {
             shape,

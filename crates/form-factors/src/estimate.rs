@@ -42,6 +42,10 @@ enum Method<'a> {
     Accurate(Accurate<'a>),
 }
 
+/// So many faces are listed between parts that will be looked at more closely, and at last.
+const FEW: usize = 64;
+const MANY: usize = 1024;
+
 /// What the estimators reuse from pair to pair.
 #[derive(Default)]
 struct Room {
@@ -176,19 +180,24 @@ impl<'a> Estimation<'a> {
     ) {
         let tiles = &self.tiling.tiles;
         let part = &tiles[tile].part;
-        let Some(between) = self.view(&Between::Many, part, &group.part) else {
+        // Accurate pairs have a list of their own.
+        let most = match self.method {
+            Method::Regular(_) | Method::MonteCarlo(_) => MANY,
+            Method::Accurate(_) => FEW,
+        };
+        let Some(between) = self.view(&Between::Many, [part, &group.part], FEW) else {
             return;
         };
         for other in group.tiles.clone() {
             let part_j = &tiles[other].part;
-            let Some(between) = self.view(&between, part, part_j) else {
+            let Some(between) = self.view(&between, [part, part_j], FEW) else {
                 continue;
             };
             if let Method::Regular(regular) = &self.method {
                 regular.prepare([tile, other], &mut room.regular);
             }
             for (lane, &i) in tiles[tile].patches.iter().enumerate() {
-                if let Some(between) = self.view(&between, &self.parts[i], part_j) {
+                if let Some(between) = self.view(&between, [&self.parts[i], part_j], most) {
                     self.exchange((i, lane), &tiles[other], &between, room, tell);
                 }
             }
@@ -197,12 +206,13 @@ impl<'a> Estimation<'a> {
 
     /// What may stand between two parts, given what may between larger ones around them; `None` if
     /// they cannot see each other's fronts.
-    fn view(&self, between: &Between, from: &Part, to: &Part) -> Option<Between> {
+    fn view(&self, between: &Between, ends: [&Part; 2], most: usize) -> Option<Between> {
+        let [from, to] = ends;
         let same_face = matches!((from.face, to.face), (Some((i, _)), Some((j, _))) if i == j);
         if same_face || !from.may_face(to, self.obstacles.occluders.plane_tolerance()) {
             return None;
         }
-        self.obstacles.narrow(between, from, to)
+        self.obstacles.narrow(between, ends, most)
     }
 
     /// Estimates the exchange of a patch with those of a tile.
@@ -235,7 +245,7 @@ impl<'a> Estimation<'a> {
             Method::Accurate(accurate) => {
                 for (_, j) in others {
                     let parts = [&self.parts[i], &self.parts[j]];
-                    if let Some(between) = self.view(between, parts[0], parts[1]) {
+                    if let Some(between) = self.view(between, parts, MANY) {
                         let exchange = accurate.exchange([i, j], &between, &self.obstacles);
                         let Exchange { value, error } = exchange;
                         tell(lane, j, (value * self.scale) as f32, error);

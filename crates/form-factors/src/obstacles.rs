@@ -33,12 +33,17 @@ impl Obstacles {
     }
 
     /// What may stand between two parts, given what may between larger ones around them; `None`
-    /// if something hides one from the other.
-    pub(crate) fn narrow(&self, between: &Between, from: &Part, to: &Part) -> Option<Between> {
+    /// if something hides one from the other. Of all faces up to `most` are listed.
+    pub(crate) fn narrow(
+        &self,
+        between: &Between,
+        [from, to]: [&Part; 2],
+        most: usize,
+    ) -> Option<Between> {
         let listed;
         let faces = match between {
             Between::Few(faces) => faces,
-            Between::Many => match self.occluders.between([from.end(), to.end()]) {
+            Between::Many => match self.occluders.between([from.bounds(), to.bounds()], most) {
                 None => return Some(Between::Many),
                 Some(faces) => {
                     listed = faces;
@@ -94,7 +99,7 @@ impl Kernel for Narrow<'_> {
         let tolerance = self.obstacles.occluders.plane_tolerance();
         let mut partly = Vec::new();
         for &face in self.faces {
-            if [from.end().face, to.end().face].contains(&Some(face)) {
+            if from.is_on(face) || to.is_on(face) {
                 continue;
             }
             let blocker = self.obstacles.blocker(face);

@@ -2,7 +2,7 @@
 
 use crate::blocker::Plane;
 use arrayvec::ArrayVec;
-use radiosity_geometry::{DVec3, End, Face, FaceId};
+use radiosity_geometry::{Aabb, DVec3, Face, FaceId};
 use radiosity_simd::{LANES, Simd};
 
 /// The convex hull of up to eight points, and the plane it lies in, if it does.
@@ -52,7 +52,7 @@ impl Part {
 
     /// The box around points.
     pub(crate) fn around(points: impl Iterator<Item = DVec3>) -> Part {
-        let bounds = radiosity_geometry::Aabb::around(points);
+        let bounds = Aabb::around(points);
         let ends = [bounds.min, bounds.max];
         let corner = |k: usize| DVec3::new(ends[k & 1].x, ends[k >> 1 & 1].y, ends[k >> 2].z);
         let corners: [DVec3; LANES] = std::array::from_fn(corner);
@@ -73,11 +73,13 @@ impl Part {
         self.corners.len()
     }
 
-    pub(crate) fn end(&self) -> End<'_> {
-        End {
-            corners: &self.corners,
-            face: self.face.map(|(face, _)| face),
-        }
+    pub(crate) fn bounds(&self) -> Aabb {
+        Aabb::around(self.corners.iter().copied())
+    }
+
+    /// Whether it lies on a face.
+    pub(crate) fn is_on(&self, face: FaceId) -> bool {
+        self.face.is_some_and(|(own, _)| own == face)
     }
 
     /// The heights of the corners over a plane.

@@ -6,7 +6,7 @@ use crate::samples::{Lanes, Local, Samples, Units};
 use crate::shade::{Mark, Over, Shade};
 use crate::tiles::Tiling;
 use crate::transfer::{Source, Transfer};
-use radiosity_geometry::{Mesh, Occluders};
+use radiosity_geometry::{Bundle, Mesh, Occluders};
 use radiosity_simd::{Kernel, LANES, Simd, dispatch};
 
 /// The regular points of all patches.
@@ -121,12 +121,16 @@ fn blocked(
     unit: f64,
 ) -> u8 {
     let from = i.point(p, lane);
-    let blocked = |to_lane: usize| {
-        let to = j.point(q, to_lane);
-        kernel(from, i.normal(lane), to, j.normal(to_lane)) > 0.0
-            && occluders.blocked(i.faces[lane], unit * from, j.faces[to_lane], unit * to)
+    let faces_it = |&to: &usize| kernel(from, i.normal(lane), j.point(q, to), j.normal(to)) > 0.0;
+    let wanted = (0..LANES).filter(faces_it).map(|to| 1 << to).sum();
+    let bundle = Bundle {
+        points: [
+            from.to_array().map(|coordinate| [unit * coordinate; LANES]),
+            j.points[q].map(|axis| axis.map(|coordinate| unit * coordinate)),
+        ],
+        faces: [[i.faces[lane]; LANES], j.faces],
     };
-    (0..LANES).map(|lane| u8::from(blocked(lane)) << lane).sum()
+    occluders.blocked_of(&bundle, wanted)
 }
 
 struct Localize<'a> {

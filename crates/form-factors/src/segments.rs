@@ -3,7 +3,7 @@
 use crate::blocker::Blocker;
 use crate::target::{Points, Target, height, kernel, points};
 use crate::visible::{Sampler, Shifts, coordinate};
-use radiosity_geometry::{FaceId, Occluders};
+use radiosity_geometry::{Bundle, FaceId, Occluders};
 use radiosity_simd::{Float, LANES, Simd};
 
 /// What may block a segment.
@@ -38,12 +38,19 @@ impl Sampler for Segments<'_> {
         let blocked = match self.blocked {
             Blocked::By(blockers) => cut_by_any(simd, blockers, &p, &q),
             Blocked::Somehow(occluders, faces) => {
-                blocked_somehow((occluders, faces), &p, &q, weight.lanes())
+                let bundle = Bundle {
+                    points: [p.lanes(), q.lanes()],
+                    faces: faces.map(|face| [face; LANES]),
+                };
+                occluders.blocked_of(&bundle, simd.splat_f64(0.0).less(weight))
             }
         };
         [weight, simd.splat_f64(0.0).select(blocked, weight)]
     }
 }
+
+/// All lanes.
+const ALL: u8 = !0;
 
 /// Which segments any of the blockers cuts.
 #[inline(always)]
@@ -56,23 +63,9 @@ fn cut_by_any<S: Simd>(
     let mut blocked = 0;
     for blocker in blockers {
         blocked |= cuts(simd, blocker, p, q);
-    }
-    blocked
-}
-
-/// Which segments of any weight are blocked, one after the other.
-#[inline(always)]
-fn blocked_somehow<F: Float<f64>>(
-    (occluders, [i, j]): (&Occluders, [FaceId; 2]),
-    p: &Points<F>,
-    q: &Points<F>,
-    weights: [f64; LANES],
-) -> u8 {
-    let [p, q] = [p, q].map(Points::lanes);
-    let mut blocked = 0;
-    for lane in 0..LANES {
-        let hidden = weights[lane] > 0.0 && occluders.blocked(i, p[lane], j, q[lane]);
-        blocked |= u8::from(hidden) << lane;
+        if blocked == ALL {
+            break;
+        }
     }
     blocked
 }

@@ -16,13 +16,19 @@ pub(crate) type Heights = [Lanes<f32>; PLANES];
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Shade {
     faces: Vec<FaceId>,
+    /// By face of the scene: its place among `faces`, if it is there.
+    places: Vec<u32>,
     /// By face and point.
     heights: Vec<Heights>,
 }
 
+const NOWHERE: u32 = u32::MAX;
+
 impl Shade {
     pub(crate) fn clear(&mut self) {
-        self.faces.clear();
+        for face in self.faces.drain(..) {
+            self.places[face.index()] = NOWHERE;
+        }
         self.heights.clear();
     }
 
@@ -33,9 +39,12 @@ impl Shade {
         over: &Over<'_>,
         samples: &Samples,
     ) -> &[Heights] {
-        let count = samples.points.len();
-        let known = self.faces.iter().position(|&known| known == face);
-        let at = known.unwrap_or_else(|| {
+        if self.places.len() <= face.index() {
+            self.places.resize(face.index() + 1, NOWHERE);
+        }
+        let place = &mut self.places[face.index()];
+        if *place == NOWHERE {
+            *place = self.faces.len() as u32;
             self.faces.push(face);
             let heights = &mut self.heights;
             dispatch(Measure {
@@ -43,8 +52,9 @@ impl Shade {
                 samples,
                 heights,
             });
-            self.faces.len() - 1
-        });
+        }
+        let count = samples.points.len();
+        let at = *place as usize;
         &self.heights[at * count..(at + 1) * count]
     }
 }
@@ -124,6 +134,9 @@ impl Kernel for Mark<'_> {
             let [to_plane, to_edges @ ..] = to;
             let to_plane = simd.f32(to_plane);
             for (from, blocked) in from.iter().zip(blocked) {
+                if *blocked == !0 {
+                    continue;
+                }
                 let from_plane = simd.splat_f32(from[0][lane]);
                 // Positive where the ends are on either side, times the height of the first.
                 let across = -(to_plane * from_plane);

@@ -228,13 +228,14 @@ fn meet<S: Simd>(simd: S, faces: &[&Blocker], rays: &Rays<S::F64>) -> Met {
 fn trace<F: Float<f64>>(obstacles: &Obstacles, except: FaceId, rays: &Rays<F>) -> Met {
     let from = rays.from.lanes();
     let [x, y, z] = &rays.direction;
-    let (x, y, z) = (x.lanes(), y.lanes(), z.lanes());
+    let along = [x.lanes(), y.lanes(), z.lanes()];
     let mut met = Met {
         backs: 0,
         nothing: 0,
     };
     for lane in 0..LANES {
-        let ray = Ray::new(from[lane], DVec3::new(x[lane], y[lane], z[lane]));
+        let at = |lanes: &[[f64; LANES]; 3]| DVec3::from_array(lanes.map(|axis| axis[lane]));
+        let ray = Ray::new(at(&from), at(&along));
         let hit = obstacles
             .occluders
             .closest_hit(&ray, 0.0, f64::INFINITY, Some(except));

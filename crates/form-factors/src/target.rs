@@ -27,9 +27,9 @@ pub(crate) struct Points<F> {
 
 impl<F: Float<f64>> Points<F> {
     #[inline(always)]
-    pub(crate) fn lanes(&self) -> [DVec3; LANES] {
-        let (x, y, z) = (self.x.lanes(), self.y.lanes(), self.z.lanes());
-        std::array::from_fn(|lane| DVec3::new(x[lane], y[lane], z[lane]))
+    /// The coordinates, by axis.
+    pub(crate) fn lanes(&self) -> [[f64; LANES]; 3] {
+        [self.x.lanes(), self.y.lanes(), self.z.lanes()]
     }
 }
 
