@@ -3,7 +3,7 @@
 
 use crate::blocker::Blocker;
 use crate::element::Element;
-use crate::lines::{self, Lines, MOST_BLOCKERS};
+use crate::lines::{Lines, MOST_BLOCKERS};
 use crate::obstacles::{Between, Obstacles};
 use crate::random::Stream;
 use crate::segments::{Blocked, Segments};
@@ -26,7 +26,6 @@ pub(crate) struct Accurate<'a> {
     elements: Vec<Element>,
     targets: Vec<Target>,
     tolerance: f64,
-    plane_tolerance: f64,
 }
 
 /// `S_ij` and its standard error.
@@ -37,13 +36,12 @@ pub(crate) struct Exchange {
 }
 
 impl<'a> Accurate<'a> {
-    pub(crate) fn new(mesh: &'a Mesh, tolerance: f64, plane_tolerance: f64) -> Accurate<'a> {
+    pub(crate) fn new(mesh: &'a Mesh, tolerance: f64) -> Accurate<'a> {
         Accurate {
             mesh,
             elements: mesh.patches.iter().map(Element::new).collect(),
             targets: mesh.patches.iter().map(Target::new).collect(),
             tolerance,
-            plane_tolerance,
         }
     }
 
@@ -80,34 +78,27 @@ impl<'a> Accurate<'a> {
         }
     }
 
-    /// The visible share past a few blockers: by lines across the larger patch, where those are
-    /// exact enough.
+    /// The visible share past a few blockers: by lines across the larger patch, unless they are
+    /// many.
     fn past(&self, i: usize, j: usize, blockers: &[Blocker], clear: f64) -> Share {
+        if blockers.len() > MOST_BLOCKERS {
+            return self.among(i, j, Blocked::By(blockers), clear);
+        }
         let (from, across) = if self.area(i) < self.area(j) {
             (i, j)
         } else {
             (j, i)
         };
-        let (a, b) = (&self.elements[from], &self.elements[across]);
-        let distance = (a.centroid.distance(b.centroid) - a.radius).max(0.0);
-        let bias = lines::bias(b.radius / distance);
-        let wanted = self.wanted(i, j, clear);
-        // Where either plane cuts the other patch the kernel is no parabola.
-        let whole =
-            a.faces_whole(b, self.plane_tolerance) && b.faces_whole(a, self.plane_tolerance);
-        if !whole || bias > 0.5 * wanted || blockers.len() > MOST_BLOCKERS {
-            return self.among(i, j, Blocked::By(blockers), clear);
-        }
         let lines = Lines {
             from: &self.targets[from],
             across: &self.targets[across],
             blockers,
         };
-        let Share { value, error } = share(&lines, Stream::of_pair(SEED, i, j), wanted - bias);
-        Share {
-            value,
-            error: error + bias,
-        }
+        share(
+            &lines,
+            Stream::of_pair(SEED, i, j),
+            self.wanted(i, j, clear),
+        )
     }
 
     /// The visible share among any blockers, by segments.

@@ -65,10 +65,7 @@ impl<'a> Estimation<'a> {
                 pairs,
                 seed,
             } => Method::MonteCarlo(MonteCarlo::new(points, pairs, seed)),
-            Estimator::Accurate { tolerance } => {
-                let plane_tolerance = obstacles.occluders.plane_tolerance();
-                Method::Accurate(Accurate::new(mesh, tolerance, plane_tolerance))
-            }
+            Estimator::Accurate { tolerance } => Method::Accurate(Accurate::new(mesh, tolerance)),
         };
         let part = |patch: &Patch| {
             let face = &mesh.faces[patch.face.index()];

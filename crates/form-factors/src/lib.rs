@@ -19,6 +19,7 @@
 //! invalidate what it computed.
 
 mod accurate;
+mod angle;
 mod blocker;
 mod contour;
 mod element;

@@ -1,25 +1,16 @@
 //! The visible share of a pair, line by line: seen from a point on one patch, the shadows of
-//! convex blockers on a line across the other are intervals, found exactly. What is left to sample
-//! is continuous, and needs far fewer samples than points do.
-//!
-//! Along a line the kernel is replaced by the parabola through three of its values, so this is
-//! for patches that are not too near, and wholly in front of each other: see [`bias`].
+//! convex blockers on a line across the other are intervals, and what light passes between them is
+//! known in closed form. What is left to sample is continuous, and needs far fewer samples than
+//! points do.
 
+use crate::angle::angle;
 use crate::blocker::Blocker;
-use crate::target::{Points, Target, at, height, kernel, points};
+use crate::target::{Points, Target, at, dot, height, points};
 use crate::visible::{Sampler, Shifts, coordinate};
 use radiosity_simd::{Float, Simd};
 
 /// More blockers are not worth sorting.
 pub(crate) const MOST_BLOCKERS: usize = 8;
-
-/// By how much parabolas at most change a share, by the ratio of the radius of the patch that lines
-/// cross to its least distance from a point of the other. Of third order, as a parabola leaves it;
-/// the constant is for lines that lead away from the point (the worst of random pairs takes three
-/// quarters of it), opposed patches have much less.
-pub(crate) fn bias(ratio: f64) -> f64 {
-    2.0 * ratio * ratio * ratio
-}
 
 /// Lines across a patch, seen from points of another.
 pub(crate) struct Lines<'a> {
@@ -28,9 +19,6 @@ pub(crate) struct Lines<'a> {
     /// At most [`MOST_BLOCKERS`].
     pub(crate) blockers: &'a [Blocker],
 }
-
-/// Where the kernel is evaluated: Gauss's three points.
-const NODES: [f64; 3] = [0.112_701_665_379_258_3, 0.5, 0.887_298_334_620_741_7];
 
 /// Part of a line, in parameters between 0 and 1.
 #[derive(Clone, Copy)]
@@ -45,11 +33,18 @@ struct Line<F> {
     end: Points<F>,
 }
 
-/// The antiderivative of a parabola, without its constant.
-struct Antiderivative<F> {
+/// The kernel along a line, from a point: with `s` the parameter counted from the foot of the
+/// perpendicular, `(constant + linear s + square s^2) / (s^2 + distance^2)^2`.
+struct Light<F> {
+    /// The parameter of the foot.
+    foot: F,
+    /// Squared distance from the line, in units of its length.
+    squared: F,
+    constant: F,
     linear: F,
     square: F,
-    cube: F,
+    /// The part of the line in front of the point's patch.
+    bright: Interval<F>,
 }
 
 impl Sampler for Lines<'_> {
@@ -69,10 +64,10 @@ impl Sampler for Lines<'_> {
         let light = light(simd, (self.from, &p), (self.across, &line));
         let mut shadows = [nothing; MOST_BLOCKERS];
         for (shadow, blocker) in shadows.iter_mut().zip(self.blockers) {
-            *shadow = shadow_of(simd, blocker, &p, &line);
+            *shadow = shadow_of(simd, blocker, (&p, &line), light.bright);
         }
         let hidden = light_in_union(simd, &mut shadows[..self.blockers.len()], &light);
-        let total = light.at(simd.splat_f64(1.0));
+        let total = light.over(simd, light.bright);
         [p.area * total, p.area * (total - hidden)]
     }
 }
@@ -92,48 +87,74 @@ fn line<S: Simd>(simd: S, target: &Target, u: S::F64) -> Line<S::F64> {
     line
 }
 
-/// The kernel along a line, from a point, as a parabola.
+/// Lines nearer to a point than this times their length are that near: the light stays finite.
+const NEAREST: f64 = 1e-10;
+
 #[inline(always)]
 fn light<S: Simd>(
     simd: S,
     (from, p): (&Target, &Points<S::F64>),
     (across, line): (&Target, &Line<S::F64>),
-) -> Antiderivative<S::F64> {
-    let mut values = [simd.splat_f64(0.0); 3];
-    for (value, node) in values.iter_mut().zip(NODES) {
-        let q = between(simd, line, node);
-        *value = q.area * kernel(simd, (from, p), (across, &q));
-    }
-    let [a, b, c] = values;
-    // Newton's form about the middle node, expanded.
-    let half = NODES[1] - NODES[0];
-    let slope = (c - a) * simd.splat_f64(0.5 / half);
-    let curve = (a - b - b + c) * simd.splat_f64(0.5 / (half * half));
-    let middle = simd.splat_f64(NODES[1]);
-    Antiderivative {
-        linear: b - slope * middle + curve * middle * middle,
-        square: (slope - curve * (middle + middle)) * simd.splat_f64(0.5),
-        cube: curve * simd.splat_f64(1.0 / 3.0),
+) -> Light<S::F64> {
+    let zero = simd.splat_f64(0.0);
+    let Line { start, end } = line;
+    let to_start = [start.x - p.x, start.y - p.y, start.z - p.z];
+    let along = [end.x - start.x, end.y - start.y, end.z - start.z];
+    let [x, y, z] = to_start;
+    let from_plane = dot(simd, from.normal, x, y, z);
+    let height_of_p = (-dot(simd, across.normal, x, y, z)).max(zero);
+    let [x, y, z] = along;
+    let slope = dot(simd, from.normal, x, y, z);
+    let length = product(along, along);
+    let foot = -(product(to_start, along) / length);
+    let squared = product(to_start, to_start) / length - foot * foot;
+    let mut bright = Interval {
+        from: zero,
+        to: simd.splat_f64(1.0),
+    };
+    clip(simd, &mut bright, from_plane, from_plane + slope);
+    bright.to = bright.to.max(bright.from);
+    // Both the height over the point's plane and the area grow linearly.
+    let (height, area) = (
+        from_plane + slope * foot,
+        start.area + (end.area - start.area) * foot,
+    );
+    let growth = end.area - start.area;
+    // A line without length has no light.
+    let scale = (height_of_p / (length * length)).select(zero.less(length), zero);
+    Light {
+        foot,
+        squared: squared.max(simd.splat_f64(NEAREST * NEAREST)),
+        constant: scale * height * area,
+        linear: scale * (height * growth + slope * area),
+        square: scale * slope * growth,
+        bright,
     }
 }
 
-impl<F: Float<f64>> Antiderivative<F> {
-    #[inline(always)]
-    fn at(&self, t: F) -> F {
-        t * (self.linear + t * (self.square + t * self.cube))
-    }
-}
-
-/// The point of a line at a parameter.
 #[inline(always)]
-fn between<S: Simd>(simd: S, line: &Line<S::F64>, parameter: f64) -> Points<S::F64> {
-    let (a, b) = (simd.splat_f64(1.0 - parameter), simd.splat_f64(parameter));
-    let (start, end) = (&line.start, &line.end);
-    Points {
-        x: a * start.x + b * end.x,
-        y: a * start.y + b * end.y,
-        z: a * start.z + b * end.z,
-        area: a * start.area + b * end.area,
+fn product<F: Float<f64>>(a: [F; 3], b: [F; 3]) -> F {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+impl<F: Float<f64>> Light<F> {
+    /// The integral over an interval, by the antiderivatives of `s^n / (s^2 + d^2)^2`; their arcs
+    /// combine to the angle that the interval subtends.
+    #[inline(always)]
+    fn over<S: Simd<F64 = F>>(&self, simd: S, interval: Interval<F>) -> F {
+        let (half, one) = (simd.splat_f64(0.5), simd.splat_f64(1.0));
+        let (from, to) = (interval.from - self.foot, interval.to - self.foot);
+        let distance = self.squared.sqrt();
+        let (at_from, at_to) = (
+            one / (from * from + self.squared),
+            one / (to * to + self.squared),
+        );
+        let angle = angle(simd, distance * (to - from), self.squared + from * to);
+        let arc = angle / distance;
+        let rational = to * at_to - from * at_from;
+        half * (self.constant * (arc + rational) / self.squared
+            + self.linear * (at_from - at_to)
+            + self.square * (arc - rational))
     }
 }
 
@@ -143,17 +164,14 @@ fn between<S: Simd>(simd: S, line: &Line<S::F64>, parameter: f64) -> Points<S::F
 fn shadow_of<S: Simd>(
     simd: S,
     blocker: &Blocker,
-    p: &Points<S::F64>,
-    line: &Line<S::F64>,
+    (p, line): (&Points<S::F64>, &Line<S::F64>),
+    bright: Interval<S::F64>,
 ) -> Interval<S::F64> {
     let [plane, edges @ ..] = &blocker.planes;
     let at_p = height(simd, plane, p);
     let across_start = -(at_p * height(simd, plane, &line.start));
     let across_end = -(at_p * height(simd, plane, &line.end));
-    let mut shadow = Interval {
-        from: simd.splat_f64(0.0),
-        to: simd.splat_f64(1.0),
-    };
+    let mut shadow = bright;
     clip(simd, &mut shadow, across_start, across_end);
     let squared = at_p * at_p;
     for edge in edges {
@@ -185,17 +203,17 @@ fn clip<S: Simd>(simd: S, interval: &mut Interval<S::F64>, at_start: S::F64, at_
 fn light_in_union<S: Simd>(
     simd: S,
     intervals: &mut [Interval<S::F64>],
-    light: &Antiderivative<S::F64>,
+    light: &Light<S::F64>,
 ) -> S::F64 {
     sort(intervals);
     let mut covered = simd.splat_f64(0.0);
-    let mut reached = simd.splat_f64(0.0);
-    let one = simd.splat_f64(1.0);
+    let mut reached = light.bright.from;
+    let end = light.bright.to;
     for interval in intervals.iter() {
-        // Intervals that are none begin and end beyond the line.
-        let from = interval.from.max(reached).min(one);
-        let to = interval.to.min(one).max(from);
-        covered = covered + (light.at(to) - light.at(from));
+        // Intervals that are none may begin and end beyond the line.
+        let from = interval.from.max(reached).min(end);
+        let to = interval.to.min(end).max(from);
+        covered = covered + light.over(simd, Interval { from, to });
         reached = to;
     }
     covered

@@ -14,7 +14,7 @@ pub(crate) struct Target {
     /// The Jacobian: at the corner, and what it grows along either edge.
     jacobian: [f64; 3],
     pub(crate) is_triangle: bool,
-    normal: DVec3,
+    pub(crate) normal: DVec3,
 }
 
 /// Points, one per lane, and the area that each stands for.

@@ -110,7 +110,7 @@ impl Sums {
         // weight hardly count.
         let unseen = sum(&self.squares) / (all * all);
         Share {
-            // Parabolas through three values of the kernel may dip below zero.
+            // But for rounding it is.
             value: value.clamp(0.0, 1.0),
             error: scatter.max(unseen),
         }
