@@ -34,6 +34,7 @@ mod shaft;
 mod shape;
 mod slabs;
 mod subdivide;
+mod walls;
 
 pub use bounds::Aabb;
 pub use bundle::{Bundle, Points};
@@ -49,3 +50,4 @@ pub use polygon_mesh::PolygonMesh;
 pub use ray::Ray;
 pub use shape::Shape;
 pub use subdivide::{Divisions, MAX_PATCHES, MeshError, Surface, count_patches, subdivide};
+pub use walls::Walls;

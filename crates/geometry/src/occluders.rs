@@ -4,7 +4,8 @@ use crate::bounds::Aabb;
 use crate::build::build;
 use crate::bvh::Bvh;
 use crate::face_block::FaceBlock;
-use crate::mesh::{Face, FaceId, Mesh};
+use crate::mesh::{FaceId, Mesh};
+use crate::polygon::Polygon;
 use crate::queries::{Blocked, Reach};
 use crate::ray::Ray;
 use glam::DVec3;
@@ -43,12 +44,12 @@ pub struct Hit {
 const RELATIVE_PLANE_TOLERANCE: f64 = 1e-12;
 
 impl Occluder {
-    fn new(face: &Face) -> Occluder {
-        let corners = *face.polygon.padded_corners();
+    fn new(polygon: &Polygon) -> Occluder {
+        let (corners, normal) = (*polygon.padded_corners(), polygon.normal());
         Occluder {
             corners,
-            normal: face.normal,
-            offset: face.normal.dot(corners[0]),
+            normal,
+            offset: normal.dot(corners[0]),
         }
     }
 
@@ -69,13 +70,17 @@ impl Occluder {
 impl Occluders {
     /// Prepares all faces of a mesh.
     pub fn new(mesh: &Mesh) -> Occluders {
-        let boxes = mesh.faces.iter().map(|face| face.polygon.bounds());
-        let all = boxes.clone().fold(Aabb::EMPTY, Aabb::union);
-        let largest = all.min.abs().max(all.max.abs()).max_element();
-        let plane_tolerance = RELATIVE_PLANE_TOLERANCE * largest;
+        let polygons: Vec<Polygon> = mesh.faces.iter().map(|face| face.polygon).collect();
+        Occluders::of(&polygons)
+    }
+
+    /// Prepares polygons; a [`FaceId`] is then the position among them.
+    pub fn of(polygons: &[Polygon]) -> Occluders {
+        let boxes = polygons.iter().map(Polygon::bounds);
+        let plane_tolerance = plane_tolerance(polygons);
         // A ray within the side of a flat box must find it.
         let boxes: Vec<Aabb> = boxes.map(|b| b.grown(plane_tolerance)).collect();
-        let faces: Vec<Occluder> = mesh.faces.iter().map(Occluder::new).collect();
+        let faces: Vec<Occluder> = polygons.iter().map(Occluder::new).collect();
         let (tree, leaves) = build(&boxes);
         Occluders {
             blocks: leaves
@@ -137,6 +142,15 @@ impl Occluders {
     pub fn blocked(&self, i: FaceId, p: DVec3, j: FaceId, q: DVec3) -> bool {
         dispatch(Blocked::new(self, [i, j], ordered(p, q)))
     }
+}
+
+/// The rounding of coordinates as large as those of some polygons.
+pub(crate) fn plane_tolerance(polygons: &[Polygon]) -> f64 {
+    let all = polygons
+        .iter()
+        .map(Polygon::bounds)
+        .fold(Aabb::EMPTY, Aabb::union);
+    RELATIVE_PLANE_TOLERANCE * all.min.abs().max(all.max.abs()).max_element()
 }
 
 /// The ends of a segment in an order that does not depend on which one was named first.

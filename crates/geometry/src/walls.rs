@@ -1,0 +1,240 @@
+//! Faces that lie side by side in one plane, as the few large polygons that they make: fewer
+//! things stand in the way.
+
+use crate::mesh::{FaceId, Mesh};
+use crate::occluders::plane_tolerance;
+use crate::polygon::Polygon;
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// Polygons that cover the same points as the faces of a mesh do, with the same fronts.
+#[derive(Clone, Debug)]
+pub struct Walls {
+    /// The polygons; a [`FaceId`] is the position in this list where walls are meant.
+    pub polygons: Vec<Polygon>,
+    /// The wall that each face of the mesh is part of.
+    pub of_face: Vec<FaceId>,
+}
+
+/// Edges that part by this angle at most run on, and planes are the same.
+const STRAIGHT: f64 = 1e-9;
+
+impl Walls {
+    /// Joins faces that share an edge, lie in one plane and face the same way, as long as that
+    /// gives a convex triangle or quadrilateral.
+    pub fn new(mesh: &Mesh) -> Walls {
+        let polygons = mesh.faces.iter().map(|face| face.polygon).collect();
+        let mut joining = Joining::new(polygons);
+        while joining.pass() {}
+        joining.finish()
+    }
+}
+
+/// An edge by the bits of its ends, in the order of its polygon.
+type Edge = [[u64; 3]; 2];
+
+struct Joining {
+    /// `None` where a polygon has become part of another.
+    polygons: Vec<Option<Polygon>>,
+    part_of: Vec<usize>,
+    /// The polygon to the left of each edge.
+    left_of: HashMap<Edge, usize>,
+    /// The height up to which a corner counts as in a plane.
+    tolerance: f64,
+}
+
+impl Joining {
+    fn new(polygons: Vec<Polygon>) -> Joining {
+        let mut joining = Joining {
+            part_of: (0..polygons.len()).collect(),
+            left_of: HashMap::new(),
+            tolerance: plane_tolerance(&polygons),
+            polygons: polygons.into_iter().map(Some).collect(),
+        };
+        for k in 0..joining.polygons.len() {
+            joining.enter(k);
+        }
+        joining
+    }
+
+    /// Joins what can be joined, polygon after polygon; whether anything could.
+    fn pass(&mut self) -> bool {
+        let mut any = false;
+        for k in 0..self.polygons.len() {
+            while let Some((other, union)) = self.neighbour(k) {
+                self.leave(k);
+                self.leave(other);
+                self.polygons[other] = None;
+                self.part_of[other] = k;
+                self.polygons[k] = Some(union);
+                self.enter(k);
+                any = true;
+            }
+        }
+        any
+    }
+
+    /// A polygon that can be joined to this one, and both together.
+    fn neighbour(&self, k: usize) -> Option<(usize, Polygon)> {
+        let polygon = self.polygons[k]?;
+        edges(&polygon).find_map(|[a, b]| {
+            let other = *self.left_of.get(&key([b, a]))?;
+            let union = union(&polygon, &self.polygons[other]?, [a, b], self.tolerance)?;
+            (other != k).then_some((other, union))
+        })
+    }
+
+    fn enter(&mut self, k: usize) {
+        for edge in self.polygons[k].iter().flat_map(edges) {
+            self.left_of.insert(key(edge), k);
+        }
+    }
+
+    fn leave(&mut self, k: usize) {
+        for edge in self.polygons[k].iter().flat_map(edges) {
+            if self.left_of.get(&key(edge)) == Some(&k) {
+                self.left_of.remove(&key(edge));
+            }
+        }
+    }
+
+    fn finish(self) -> Walls {
+        let mut places = vec![FaceId(0); self.polygons.len()];
+        let mut polygons = Vec::new();
+        for (place, polygon) in places.iter_mut().zip(&self.polygons) {
+            *place = FaceId(polygons.len() as u32);
+            polygons.extend(*polygon);
+        }
+        let whole = |k: usize| {
+            let next = |&k: &usize| (self.part_of[k] != k).then_some(self.part_of[k]);
+            std::iter::successors(Some(k), next).last().unwrap_or(k)
+        };
+        let of_face = (0..places.len()).map(|k| places[whole(k)]).collect();
+        Walls { polygons, of_face }
+    }
+}
+
+fn edges(polygon: &Polygon) -> impl Iterator<Item = [DVec3; 2]> {
+    let corners = polygon.corners();
+    (0..corners.len()).map(move |k| [corners[k], corners[(k + 1) % corners.len()]])
+}
+
+fn key(edge: [DVec3; 2]) -> Edge {
+    // Adding zero makes one zero of both.
+    edge.map(|point| (point + 0.0).to_array().map(f64::to_bits))
+}
+
+/// Two polygons that share an edge, of which the first has `a` before `b`, as one.
+fn union(p: &Polygon, q: &Polygon, [a, b]: [DVec3; 2], tolerance: f64) -> Option<Polygon> {
+    let normal = p.normal();
+    let height = |&c: &DVec3| normal.dot(c - a).abs();
+    let same_plane = q.corners().iter().map(height).all(|h| h <= tolerance);
+    if !same_plane || normal.dot(q.normal()) < 1.0 - STRAIGHT {
+        return None;
+    }
+    let from = |polygon: &Polygon, first: DVec3| {
+        let corners = polygon.corners();
+        let start = corners.iter().position(|&c| c == first).unwrap_or(0);
+        (0..corners.len())
+            .map(|k| corners[(start + k) % corners.len()])
+            .collect::<Vec<_>>()
+    };
+    // Around the first from `b` to `a`, then around the second back.
+    let mut ring = from(p, b);
+    let second = from(q, a);
+    ring.extend(&second[1..second.len() - 1]);
+    let turn = |k: usize| {
+        let n = ring.len();
+        let (into, out) = (ring[k] - ring[(k + n - 1) % n], ring[(k + 1) % n] - ring[k]);
+        normal.dot(into.cross(out)) / (into.length() * out.length())
+    };
+    let turns: Vec<f64> = (0..ring.len()).map(turn).collect();
+    if turns.iter().any(|&turn| turn < -STRAIGHT) {
+        return None;
+    }
+    let corners = ring
+        .iter()
+        .zip(&turns)
+        .filter(|&(_, &turn)| turn > STRAIGHT);
+    match corners.map(|(&corner, _)| corner).collect::<Vec<_>>()[..] {
+        [a, b, c] => Some(Polygon::triangle([a, b, c])),
+        [a, b, c, d] => Some(Polygon::quad([a, b, c, d])),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Divisions, PolygonMesh, Shape, Surface, subdivide};
+
+    fn mesh(positions: Vec<DVec3>, faces: Vec<Vec<u32>>) -> Mesh {
+        let surface = Surface {
+            shape: Shape::Mesh(PolygonMesh { positions, faces }),
+            divisions: None,
+        };
+        subdivide(&[surface], Divisions::uniform(1)).unwrap()
+    }
+
+    /// Squares of a grid, but for those left out, each of one or two faces.
+    fn grid(a: u32, b: u32, triangles: bool, left_out: &[(u32, u32)]) -> Mesh {
+        let turned = |x: f64, y: f64| DVec3::new(0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, 0.1 * x);
+        let row = |i: u32| (0..=b).map(move |j| turned(f64::from(i), f64::from(j)));
+        let mut faces = Vec::new();
+        for (i, j) in (0..a).flat_map(|i| (0..b).map(move |j| (i, j))) {
+            let at = |i: u32, j: u32| i * (b + 1) + j;
+            let [p, q, r, s] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            if left_out.contains(&(i, j)) {
+                continue;
+            }
+            if triangles {
+                faces.extend([vec![p, q, r], vec![p, r, s]]);
+            } else {
+                faces.push(vec![p, q, r, s]);
+            }
+        }
+        mesh((0..=a).flat_map(row).collect(), faces)
+    }
+
+    fn check(mesh: &Mesh, expected: usize) {
+        let walls = Walls::new(mesh);
+        assert_eq!(walls.polygons.len(), expected);
+        let area: f64 = walls.polygons.iter().map(Polygon::area).sum();
+        assert!((area - mesh.total_area()).abs() < 1e-12 * area);
+        for (face, wall) in mesh.faces.iter().zip(&walls.of_face) {
+            let wall = &walls.polygons[wall.index()];
+            assert!(wall.normal().dot(face.normal) > 1.0 - 1e-12);
+            let (normal, centroid) = (wall.normal(), face.polygon.centroid());
+            let inside = |[a, b]: [DVec3; 2]| normal.cross(b - a).dot(centroid - a) > 0.0;
+            assert!(edges(wall).all(inside));
+        }
+    }
+
+    #[test]
+    fn grids_become_one() {
+        check(&grid(5, 7, false, &[]), 1);
+        check(&grid(4, 3, true, &[]), 1);
+    }
+
+    #[test]
+    fn holes_stay_open() {
+        check(&grid(3, 3, false, &[(1, 1)]), 4);
+    }
+
+    #[test]
+    fn folds_and_other_fronts_stay_apart() {
+        let p = DVec3::new;
+        let positions = vec![
+            p(0.0, 0.0, 0.0),
+            p(1.0, 0.0, 0.0),
+            p(1.0, 1.0, 0.0),
+            p(0.0, 1.0, 0.0),
+            p(2.0, 0.0, 0.001),
+            p(2.0, 1.0, 0.001),
+        ];
+        let folded = vec![vec![0, 1, 2, 3], vec![1, 4, 5, 2]];
+        check(&mesh(positions.clone(), folded), 2);
+        let two_sided = vec![vec![0, 1, 2, 3], vec![3, 2, 1, 0]];
+        check(&mesh(positions, two_sided), 2);
+    }
+}
