@@ -68,7 +68,7 @@ impl<'a> Accurate<'a> {
                 self.past(i, j, &blockers, clear)
             }
             Between::Many => {
-                let faces = [i, j].map(|patch| self.mesh.patches[patch].face);
+                let faces = [i, j].map(|patch| obstacles.wall(&self.mesh.patches[patch]));
                 self.among(i, j, Blocked::Somehow(&obstacles.occluders, faces), clear)
             }
         };

@@ -2,7 +2,7 @@
 //! the other.
 
 use crate::part::Part;
-use radiosity_geometry::{DVec3, Face};
+use radiosity_geometry::{DVec3, Polygon};
 use radiosity_simd::{Float, Simd};
 
 /// A face as the half-spaces that make it: its plane first, then one through each edge, facing
@@ -59,17 +59,17 @@ impl Plane {
 }
 
 impl Blocker {
-    pub(crate) fn new(face: &Face) -> Blocker {
-        let corners = face.polygon.corners();
+    pub(crate) fn new(polygon: &Polygon) -> Blocker {
+        let (corners, normal) = (polygon.corners(), polygon.normal());
         let edge = |k: usize| {
             let k = k.min(corners.len() - 1);
             let (from, to) = (corners[k], corners[(k + 1) % corners.len()]);
-            Plane::through(from, face.normal.cross(to - from).normalize())
+            Plane::through(from, normal.cross(to - from).normalize())
         };
-        let plane = Plane::through(corners[0], face.normal);
+        let plane = Plane::through(corners[0], normal);
         Blocker {
             planes: [plane, edge(0), edge(1), edge(2), edge(3)],
-            corners: *face.polygon.padded_corners(),
+            corners: *polygon.padded_corners(),
         }
     }
 
@@ -189,7 +189,7 @@ mod tests {
             divisions: None,
         });
         let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
-        let blocker = Blocker::new(&mesh.faces[1]);
+        let blocker = Blocker::new(&mesh.faces[1].polygon);
         let [a, b] = [0, 2].map(|k: usize| {
             let face = &mesh.faces[k];
             Part::on_face(FaceId(k as u32), face, face.polygon.padded_corners())

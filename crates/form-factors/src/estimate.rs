@@ -57,9 +57,11 @@ impl<'a> Estimation<'a> {
     /// Prepares what every pair needs.
     pub fn new(mesh: &'a Mesh, estimator: Estimator) -> Estimation<'a> {
         let obstacles = Obstacles::new(mesh);
-        let tiling = Tiling::new(mesh);
+        let tiling = Tiling::new(mesh, &obstacles.walls);
         let method = match estimator {
-            Estimator::Regular { points } => Method::Regular(Regular::new(mesh, &tiling, points)),
+            Estimator::Regular { points } => {
+                Method::Regular(Regular::new(mesh, &obstacles, &tiling, points))
+            }
             Estimator::MonteCarlo {
                 points,
                 pairs,
@@ -69,7 +71,7 @@ impl<'a> Estimation<'a> {
         };
         let part = |patch: &Patch| {
             let face = &mesh.faces[patch.face.index()];
-            Part::on_face(patch.face, face, patch.polygon.padded_corners())
+            Part::on_face(obstacles.wall(patch), face, patch.polygon.padded_corners())
         };
         Estimation {
             mesh,
@@ -222,9 +224,9 @@ impl<'a> Estimation<'a> {
         tell: &mut impl FnMut(usize, usize, f32, f64),
     ) {
         let patches = &self.mesh.patches;
-        let face = patches[i].face;
+        let wall = |patch: usize| self.obstacles.wall(&patches[patch]);
         let others = tile.patches.iter().copied();
-        let others = others.enumerate().filter(|&(_, j)| patches[j].face != face);
+        let others = others.enumerate().filter(|&(_, j)| wall(j) != wall(i));
         match &self.method {
             Method::Regular(regular) => {
                 let values = regular.exchange(lane, between, &self.obstacles, &mut room.regular);
@@ -234,7 +236,7 @@ impl<'a> Estimation<'a> {
                 for (_, j) in others {
                     let ends = [(i, &patches[i]), (j, &patches[j])];
                     let value = monte_carlo.estimate(ends, &mut room.strata, |p, q| {
-                        !between.cuts(&self.obstacles.occluders, (face, p), (patches[j].face, q))
+                        !between.cuts(&self.obstacles.occluders, (wall(i), p), (wall(j), q))
                     });
                     tell(lane, j, (value * self.scale) as f32, 0.0);
                 }

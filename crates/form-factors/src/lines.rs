@@ -70,6 +70,11 @@ impl Sampler for Lines<'_> {
         let total = light.over(simd, light.bright);
         [p.area * total, p.area * (total - hidden)]
     }
+
+    /// The shadow of a corner that no line has met is small among lines, and on each of them.
+    fn unseen(&self, share: f64) -> f64 {
+        share * share.cbrt()
+    }
 }
 
 /// The line on which the first parameter is `u`; on triangles it is the shorter the larger `u`.

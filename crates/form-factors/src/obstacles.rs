@@ -2,11 +2,12 @@
 
 use crate::blocker::{Blocker, Effect};
 use crate::part::Part;
-use radiosity_geometry::{DVec3, FaceId, Mesh, Occluders};
+use radiosity_geometry::{DVec3, FaceId, Mesh, Occluders, Patch, Walls};
 use radiosity_simd::{Kernel, Simd, dispatch};
 
-/// The faces of a scene as what stands in the way.
+/// The walls of a scene as what stands in the way. Faces here are walls.
 pub(crate) struct Obstacles {
+    pub(crate) walls: Walls,
     pub(crate) occluders: Occluders,
     blockers: Vec<Blocker>,
 }
@@ -22,10 +23,17 @@ pub(crate) enum Between {
 
 impl Obstacles {
     pub(crate) fn new(mesh: &Mesh) -> Obstacles {
+        let walls = Walls::new(mesh);
         Obstacles {
-            occluders: Occluders::new(mesh),
-            blockers: mesh.faces.iter().map(Blocker::new).collect(),
+            occluders: Occluders::of(&walls.polygons),
+            blockers: walls.polygons.iter().map(Blocker::new).collect(),
+            walls,
         }
+    }
+
+    /// The wall that a patch is part of.
+    pub(crate) fn wall(&self, patch: &Patch) -> FaceId {
+        self.walls.of_face[patch.face.index()]
     }
 
     pub(crate) fn blocker(&self, face: FaceId) -> &Blocker {

@@ -27,9 +27,9 @@ pub(crate) struct Scratch {
 }
 
 impl Regular {
-    pub(crate) fn new(mesh: &Mesh, tiling: &Tiling, points: u32) -> Regular {
+    pub(crate) fn new(mesh: &Mesh, obstacles: &Obstacles, tiling: &Tiling, points: u32) -> Regular {
         let units = Units::of(mesh);
-        let samples = |tile| Samples::new(mesh, tile, points, units);
+        let samples = |tile| Samples::new(mesh, obstacles, tile, points, units);
         Regular {
             samples: tiling.tiles.iter().map(samples).collect(),
             units,

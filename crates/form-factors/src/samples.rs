@@ -1,5 +1,6 @@
 //! The regular points of eight patches side by side.
 
+use crate::obstacles::Obstacles;
 use crate::points::regular;
 use crate::tiles::Tile;
 use radiosity_geometry::{Aabb, DVec3, FaceId, Mesh};
@@ -59,7 +60,13 @@ impl Units {
 
 impl Samples {
     /// Lanes without a patch have points without area.
-    pub(crate) fn new(mesh: &Mesh, tile: &Tile, points: u32, units: Units) -> Samples {
+    pub(crate) fn new(
+        mesh: &Mesh,
+        obstacles: &Obstacles,
+        tile: &Tile,
+        points: u32,
+        units: Units,
+    ) -> Samples {
         let count = (points * points) as usize;
         let mut samples = Samples {
             points: vec![[[0.0; LANES]; 3]; count],
@@ -84,7 +91,7 @@ impl Samples {
             for axis in 0..3 {
                 samples.normal[axis][lane] = normal[axis];
             }
-            samples.faces[lane] = patch_or_first.face;
+            samples.faces[lane] = obstacles.wall(patch_or_first);
             samples.offset[lane] = normal.dot(patch_or_first.centroid) / units.length;
         }
         samples

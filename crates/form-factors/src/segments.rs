@@ -47,6 +47,11 @@ impl Sampler for Segments<'_> {
         };
         [weight, simd.splat_f64(0.0).select(blocked, weight)]
     }
+
+    /// Anything that is smaller than what one sample stands for.
+    fn unseen(&self, share: f64) -> f64 {
+        share
+    }
 }
 
 /// All lanes.

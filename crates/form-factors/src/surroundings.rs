@@ -41,7 +41,7 @@ pub(crate) fn look_around(mesh: &Mesh, obstacles: &Obstacles, index: usize) -> S
     let sums = dispatch(Look {
         obstacles,
         patch,
-        in_front: in_front(mesh, obstacles, patch),
+        in_front: in_front(obstacles, patch),
         shifts: &shifts(Stream::of_pair(SEED, index, index)),
     });
     let total = |lanes: &[f64; LANES]| lanes.iter().sum::<f64>();
@@ -67,17 +67,19 @@ pub(crate) fn look_around(mesh: &Mesh, obstacles: &Obstacles, index: usize) -> S
     }
 }
 
-/// The faces in front of a patch, unless there are too many in the scene.
-fn in_front<'a>(mesh: &Mesh, obstacles: &'a Obstacles, patch: &Patch) -> Option<Vec<&'a Blocker>> {
-    if mesh.faces.len() > FASTER_THAN_TREE {
+/// The walls in front of a patch, unless there are too many in the scene.
+fn in_front<'a>(obstacles: &'a Obstacles, patch: &Patch) -> Option<Vec<&'a Blocker>> {
+    let polygons = &obstacles.walls.polygons;
+    if polygons.len() > FASTER_THAN_TREE {
         return None;
     }
     let plane = Plane::through(patch.centroid, patch.normal);
     let tolerance = obstacles.occluders.plane_tolerance();
-    let ids = (0..mesh.faces.len() as u32).map(FaceId);
+    let own = obstacles.wall(patch);
+    let ids = (0..polygons.len() as u32).map(FaceId);
     let is_in_front = |id: &FaceId| {
-        let corners = mesh.faces[id.index()].polygon.corners().iter();
-        *id != patch.face && corners.map(|&c| plane.height(c)).any(|h| h > tolerance)
+        let corners = polygons[id.index()].corners().iter();
+        *id != own && corners.map(|&c| plane.height(c)).any(|h| h > tolerance)
     };
     Some(
         ids.filter(is_in_front)
@@ -117,7 +119,7 @@ impl Kernel for Look<'_> {
             let rays = rays(simd, (self.patch, &target), k, self.shifts);
             let met = match &self.in_front {
                 Some(faces) => meet(simd, faces, &rays),
-                None => trace(self.obstacles, self.patch.face, &rays),
+                None => trace(self.obstacles, self.obstacles.wall(self.patch), &rays),
             };
             let weight = rays.from.area;
             all = all + weight;

@@ -2,7 +2,7 @@
 
 use crate::part::Part;
 use arrayvec::ArrayVec;
-use radiosity_geometry::{DVec3, Face, FaceId, Grid, Mesh};
+use radiosity_geometry::{DVec3, Face, FaceId, Grid, Mesh, Walls};
 use radiosity_simd::LANES;
 use std::ops::Range;
 
@@ -29,27 +29,29 @@ pub(crate) struct Tiling {
 }
 
 impl Tiling {
-    pub(crate) fn new(mesh: &Mesh) -> Tiling {
+    pub(crate) fn new(mesh: &Mesh, walls: &Walls) -> Tiling {
         let mut tiling = Tiling::default();
         let mut small = ArrayVec::new();
         for (k, face) in mesh.faces.iter().enumerate() {
-            let continues = k > 0 && mesh.faces[k - 1].surface == face.surface;
+            let continues = k > 0
+                && (mesh.faces[k - 1].surface == face.surface
+                    || walls.of_face[k - 1] == walls.of_face[k]);
             let is_large = face.grid.cells() >= LANES;
             if !continues || is_large {
-                tiling.push_small(mesh, &mut small);
+                tiling.push_small(mesh, walls, &mut small);
             }
             if is_large {
-                tiling.push_large(mesh, FaceId(k as u32), face);
+                tiling.push_large(mesh, walls.of_face[k], face);
                 continue;
             }
             for patch in face.patches() {
                 small.push(patch);
                 if small.is_full() {
-                    tiling.push_small(mesh, &mut small);
+                    tiling.push_small(mesh, walls, &mut small);
                 }
             }
         }
-        tiling.push_small(mesh, &mut small);
+        tiling.push_small(mesh, walls, &mut small);
         tiling
     }
 
@@ -67,14 +69,14 @@ impl Tiling {
     }
 
     /// Patches of small faces, which this leaves empty.
-    fn push_small(&mut self, mesh: &Mesh, small: &mut ArrayVec<usize, LANES>) {
+    fn push_small(&mut self, mesh: &Mesh, walls: &Walls, small: &mut ArrayVec<usize, LANES>) {
         let patches = std::mem::take(small);
-        let Some(id) = patches.first().map(|&patch| mesh.patches[patch].face) else {
+        let Some(&first) = patches.first() else {
             return;
         };
-        let is_one_face = patches.iter().all(|&patch| mesh.patches[patch].face == id);
-        let part = if is_one_face {
-            Part::around_on_face(id, &mesh.faces[id.index()], corners(mesh, &patches))
+        let wall = |patch: usize| walls.of_face[mesh.patches[patch].face.index()];
+        let part = if patches.iter().all(|&patch| wall(patch) == wall(first)) {
+            Part::around_on_face(wall(first), mesh.face_of(first), corners(mesh, &patches))
         } else {
             Part::around(corners(mesh, &patches))
         };
@@ -152,9 +154,9 @@ mod tests {
         }
     }
 
-    /// A strip of nine quads of four patches each.
+    /// A zigzag strip of nine quads of four patches each.
     fn strip() -> Shape {
-        let position = |k: usize| DVec3::new((k / 2) as f64, (k % 2) as f64, 0.0);
+        let position = |k: usize| DVec3::new((k / 2) as f64, (k % 2) as f64, (k / 2 % 2) as f64);
         let face = |k: u32| vec![2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1];
         Shape::Mesh(PolygonMesh {
             positions: (0..20).map(position).collect(),
@@ -173,7 +175,7 @@ mod tests {
             surface(rectangle(5.0, 1.0), 7, 9),
         ];
         let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
-        let tiling = Tiling::new(&mesh);
+        let tiling = Tiling::new(&mesh, &Walls::new(&mesh));
         let mut seen = vec![false; mesh.patches.len()];
         let mut next = 0;
         for group in &tiling.groups {
@@ -199,7 +201,7 @@ mod tests {
         let tiles = |a: f64, b: f64, along_a: u32, along_b: u32| {
             let surfaces = [surface(rectangle(a, b), along_a, along_b)];
             let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
-            Tiling::new(&mesh).tiles
+            Tiling::new(&mesh, &Walls::new(&mesh)).tiles
         };
         let second = |tiles: &[Tile]| tiles[0].patches[1..3].to_vec();
         assert_eq!(tiles(1.0, 1.0, 12, 12).len(), 18);
@@ -212,7 +214,7 @@ mod tests {
     #[test]
     fn small_faces_share_tiles() {
         let mesh = subdivide(&[surface(strip(), 2, 2)], Divisions::uniform(1)).unwrap();
-        let tiles = Tiling::new(&mesh).tiles;
+        let tiles = Tiling::new(&mesh, &Walls::new(&mesh)).tiles;
         assert_eq!(tiles.len(), 5);
         assert!(tiles[0].part.face.is_none());
         assert!(tiles[4].part.face.is_some());

@@ -35,6 +35,8 @@ pub(crate) type Shifts = [[f64; LANES]; 4];
 pub(crate) trait Sampler {
     /// The kernel of the `k`-th sample under each shift, and how much of it is visible.
     fn sample<S: Simd>(&self, simd: S, k: usize, shifts: &Shifts) -> [S::F64; 2];
+    /// What may have gone unseen between samples of which each has this share of all weights.
+    fn unseen(&self, share: f64) -> f64;
 }
 
 /// Adds samples to sums.
@@ -78,7 +80,7 @@ pub(crate) fn share(sampler: &impl Sampler, stream: Stream, wanted: f64) -> Shar
             samples: samples.clone(),
             sums: &mut sums,
         });
-        let share = sums.share();
+        let share = sums.share(sampler);
         if share.error <= wanted || samples.end == MOST {
             return share;
         }
@@ -91,7 +93,7 @@ pub(crate) fn shifts(mut stream: Stream) -> Shifts {
 }
 
 impl Sums {
-    fn share(&self) -> Share {
+    fn share(&self, sampler: &impl Sampler) -> Share {
         let sum = |lanes: &[f64; LANES]| lanes.iter().sum::<f64>();
         let all = sum(&self.all);
         if all <= 0.0 {
@@ -106,9 +108,8 @@ impl Sums {
         let squares: f64 = (0..LANES).map(residual).sum();
         let lanes = LANES as f64;
         let scatter = (lanes * squares / (lanes - 1.0)).sqrt() / all;
-        // What is smaller than the share of one sample may have gone unseen, and samples of little
-        // weight hardly count.
-        let unseen = sum(&self.squares) / (all * all);
+        // Samples of little weight hardly count.
+        let unseen = sampler.unseen(sum(&self.squares) / (all * all));
         Share {
             // But for rounding it is.
             value: value.clamp(0.0, 1.0),

@@ -40,7 +40,8 @@ fn targets(mesh: &Mesh) -> [Target; 2] {
 }
 
 fn blockers(mesh: &Mesh) -> Vec<Blocker> {
-    mesh.faces[2..].iter().map(Blocker::new).collect()
+    let faces = mesh.faces[2..].iter();
+    faces.map(|face| Blocker::new(&face.polygon)).collect()
 }
 
 /// The sums over some samples, on an instruction set.
