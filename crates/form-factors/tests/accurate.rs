@@ -131,7 +131,7 @@ impl Box313 {
 fn a_box_with_a_cuboid() {
     let room = Box313::load();
     let mesh = mesh_of(room.shapes.clone());
-    for (tolerance, rms, row_sums) in [(3e-4, 3e-6, 4e-5), (3e-5, 1e-6, 1.5e-5)] {
+    for (tolerance, rms, row_sums) in [(5e-4, 3e-6, 4e-5), (3e-5, 1e-6, 1.5e-5)] {
         let found = aggregated(&accurate(&mesh, tolerance), ELEMENTS, 1);
         let quality = room.judge(&found);
         println!("{tolerance:.0e}: {quality:?}");
@@ -153,7 +153,7 @@ fn a_box_of_triangles() {
         };
         [Shape::Triangle([a, b, c]), Shape::Triangle([a, c, d])]
     });
-    let found = accurate(&mesh_of(halves), 3e-4);
+    let found = accurate(&mesh_of(halves), 5e-4);
     let quality = room.judge(&aggregated(&found, ELEMENTS, 2));
     println!("{quality:?}");
     assert!(quality.rms < 3e-6);

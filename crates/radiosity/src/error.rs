@@ -108,9 +108,8 @@ impl Error {
                 let names = names.join("`, `");
                 Error::Unsolvable {
                     problem: format!("{error}; the worst rows belong to `{names}`"),
-                    remedy: "lower the reflectances there, or estimate the form factors with \
-                             more points (--points, with monte-carlo --pairs) or finer patches \
-                             (--patches)"
+                    remedy: "estimate the form factors with --mode accurate, or lower the \
+                             reflectances there"
                         .to_owned(),
                 }
             }

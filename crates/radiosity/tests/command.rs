@@ -36,6 +36,8 @@ fn render_reports_one_json_object() {
             "reason",
             "row_background_mean",
             "row_backs_mean",
+            "row_error_max",
+            "row_error_mean",
             "row_sum_max_error",
             "row_sum_mean",
             "seconds"
@@ -234,7 +236,7 @@ fn check_computes_nothing() {
 #[test]
 fn nothing_but_text_is_printed_where_there_is_no_terminal() {
     let place = Place::new();
-    let (_, stdout, stderr) = place.run("render room.toml --points 8 --patches 6");
+    let (_, stdout, stderr) = place.run("render room.toml --mode regular --points 8 --patches 6");
     assert!(
         !stdout.contains('\x1b') && !stderr.contains('\x1b'),
         "{stderr}"

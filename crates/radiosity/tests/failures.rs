@@ -8,7 +8,7 @@ use std::fs;
 /// Two squares so close that one point on each overestimates their form factor 40 times.
 const NARROW_GAP: &str = r#"
 discretization = { divisions = 1 }
-form_factors = { points = 1 }
+form_factors = { mode = "regular", points = 1 }
 
 [materials.white]
 reflectance = 0.7
@@ -68,7 +68,7 @@ fn failures_are_explained() {
 #[test]
 fn a_killed_run_leaves_nothing_broken() {
     let place = Place::new();
-    let arguments = "render room.toml --cache c --patches 20 --points 2 --format ppm";
+    let arguments = "render room.toml --cache c --patches 20 --format ppm";
     for delay in 0..25 {
         let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_radiosity"))
             .args(arguments.split(' '))

@@ -66,7 +66,7 @@ pub struct SolverSettings {
 }
 
 /// Well below what patches of constant radiosity cost, and for engineers who want factors.
-const DEFAULT_TOLERANCE: f64 = 3e-4;
+const DEFAULT_TOLERANCE: f64 = 5e-4;
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -185,7 +185,7 @@ impl FormFactorTable {
             require(source, pairs, |&n| n >= 1, "`pairs`", "at least 1")?;
         }
         Ok(FormFactorSettings {
-            mode: self.mode.unwrap_or(Mode::Regular),
+            mode: self.mode.unwrap_or(Mode::Accurate),
             points: value_or(
                 source,
                 self.points.as_ref(),

@@ -67,7 +67,7 @@ fn what_is_not_said_has_defaults() {
     assert_eq!((scene.image.exposure, scene.image.gamma), (1.0, 2.2));
     assert_eq!(
         (scene.form_factors.mode, scene.form_factors.points),
-        (Mode::Regular, 3)
+        (Mode::Accurate, 3)
     );
     assert_eq!(
         (scene.solver.tolerance, scene.solver.max_sweeps),
