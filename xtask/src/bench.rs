@@ -1,5 +1,7 @@
 //! `cargo xtask bench`: what is claimed, measured anew.
 
+mod baseline;
+mod form_factors;
 mod truth;
 
 use clap::Subcommand;
@@ -9,6 +11,13 @@ use std::process::ExitCode;
 
 #[derive(Clone, Copy, Debug, Subcommand)]
 pub(crate) enum Bench {
+    /// Form factors: speed beside a transcription of the course's program, growth, and what the
+    /// accurate mode costs
+    FormFactors {
+        /// Print one JSON object per figure: name, value, unit, target, holds
+        #[arg(long)]
+        json: bool,
+    },
     /// Every mode of the form factors against the oracle, on every shipped scene (minutes)
     Truth {
         /// Print one JSON object per figure: name, value, unit, target, holds
@@ -74,7 +83,7 @@ impl Figure {
             };
             format!(" ({target}: {kept})")
         });
-        println!("{:<40}{value:>8.2} {}{promise}", self.name, self.unit);
+        println!("{:<44}{value:>10.3} {}{promise}", self.name, self.unit);
     }
 
     /// As one line of JSON.
@@ -86,6 +95,7 @@ impl Figure {
 
 pub(crate) fn run(bench: Bench, root: &Path) -> ExitCode {
     let result = match bench {
+        Bench::FormFactors { json } => form_factors::run(root, json),
         Bench::Truth { json } => truth::run(root, json),
     };
     match result {

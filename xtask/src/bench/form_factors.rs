@@ -1,0 +1,185 @@
+//! How fast form factors are, and what the accurate ones cost, side by side with the course's.
+
+use super::baseline::Baseline;
+use super::{Figure, Target};
+use radiosity::form_factors::{Estimator, estimate};
+use radiosity::geometry::{Divisions, Mesh, subdivide};
+use radiosity::scene::{Mode, Scene, load};
+use radiosity::{Error, Pipeline, Silent, Sources, cells};
+use std::path::Path;
+use std::time::Instant;
+
+/// Patches along each edge of the course's rectangles, how often each is timed, and how many times
+/// faster than the course's program it is promised to be.
+const SIZES: [(u32, u32, Option<f64>); 4] = [
+    (12, 9, Some(600.0)),
+    (24, 5, Some(1000.0)),
+    (48, 2, None),
+    (72, 1, None),
+];
+/// Seconds that 48 patches along each edge, 27,648 in all, may take.
+const MOST_SECONDS: f64 = 4.0;
+/// The course program's own rate.
+const COURSE_RATE: f64 = 8.5e6;
+/// Every so many rows are enough to know the baseline's rate.
+const ROW_STRIDE: usize = 12;
+
+/// A tolerance at which the accurate mode has a hundredth of the course's error, and one that
+/// stands for the truth.
+const TOLERANCE: f64 = 0.01;
+const CONVERGED: f64 = 3e-5;
+
+pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
+    let mut scene = load(&root.join("scenes/cornell.toml"))?;
+    let mesh = cut(&scene, SIZES[0].0)?;
+    let rate = baseline_rate(&mesh);
+    let mut figures = vec![Figure::new(
+        "form_factors.baseline.rate".to_owned(),
+        Some(1e-6 * rate),
+        "million point pairs/s, one thread",
+        Some(Target::AtLeast(1e-6 * COURSE_RATE)),
+    )];
+    figures.extend(sizes(&scene, rate)?);
+    figures.extend(accuracy(&mut scene, point_pairs(&mesh) / rate)?);
+    for figure in &figures {
+        if json {
+            figure.print();
+        } else {
+            figure.say();
+        }
+    }
+    Ok(())
+}
+
+fn cut(scene: &Scene, divisions: u32) -> Result<Mesh, Error> {
+    subdivide(&scene.geometry, Divisions::uniform(divisions))
+        .map_err(|error| Error::Mesh(error.to_string()))
+}
+
+/// Pairs of points per second, on one thread.
+fn baseline_rate(mesh: &Mesh) -> f64 {
+    let baseline = Baseline::new(mesh);
+    let start = Instant::now();
+    let (mut sum, mut pairs) = (0.0, 0);
+    for i in (0..mesh.patches.len()).step_by(ROW_STRIDE) {
+        let (of_row, pairs_of_row) = baseline.row(i);
+        sum += of_row;
+        pairs += pairs_of_row;
+    }
+    std::hint::black_box(sum);
+    pairs as f64 / start.elapsed().as_secs_f64()
+}
+
+/// How many pairs of points the course's program tries.
+fn point_pairs(mesh: &Mesh) -> f64 {
+    let square = |count: usize| (count * count) as f64;
+    let of_faces: f64 = mesh
+        .faces
+        .iter()
+        .map(|face| square(face.patches().len()))
+        .sum();
+    81.0 * (square(mesh.patches.len()) - of_faces) / 2.0
+}
+
+/// The best of several runs, in seconds.
+fn best_seconds(mesh: &Mesh, estimator: Estimator, runs: u32) -> f64 {
+    let once = |_| {
+        let start = Instant::now();
+        std::hint::black_box(estimate(mesh, estimator, &|_| ()));
+        start.elapsed().as_secs_f64()
+    };
+    (0..runs).map(once).fold(f64::INFINITY, f64::min)
+}
+
+/// The regular rule as patches grow more.
+fn sizes(scene: &Scene, rate: f64) -> Result<Vec<Figure>, Error> {
+    let mut figures = Vec::new();
+    let mut last: Option<(f64, f64)> = None;
+    for (divisions, runs, promise) in SIZES {
+        let mesh = cut(scene, divisions)?;
+        let patches = mesh.patches.len() as f64;
+        let seconds = best_seconds(&mesh, Estimator::Regular { points: 3 }, runs);
+        let mut add = |what: &str, value: f64, unit, target| {
+            let name = format!("form_factors.regular.{divisions}.{what}");
+            figures.push(Figure::new(name, Some(value), unit, target));
+        };
+        let limit = (divisions == 48).then_some(Target::Between(0.0, MOST_SECONDS));
+        add("seconds", seconds, "s", limit);
+        let ratio = point_pairs(&mesh) / rate / seconds;
+        add(
+            "speedup",
+            ratio,
+            "times the baseline",
+            promise.map(Target::AtLeast),
+        );
+        let bytes = 4.0 * patches * (patches - 1.0) / 2.0;
+        add("matrix", 1e-6 * bytes, "MB", None);
+        if let Some((fewer, shorter)) = last {
+            let exponent = (seconds / shorter).ln() / (patches / fewer).ln();
+            add(
+                "exponent",
+                exponent,
+                "of the patches, from the size before",
+                None,
+            );
+        }
+        last = Some((patches, seconds));
+    }
+    Ok(figures)
+}
+
+/// The accurate mode against the course's rule, by time and by radiosities.
+fn accuracy(scene: &mut Scene, baseline_seconds: f64) -> Result<Vec<Figure>, Error> {
+    let settings = &mut scene.form_factors;
+    (settings.mode, settings.points) = (Mode::Regular, 3);
+    let course = radiosities(scene)?;
+    scene.form_factors.mode = Mode::Accurate;
+    scene.form_factors.tolerance = CONVERGED;
+    let truth = radiosities(scene)?;
+    scene.form_factors.tolerance = TOLERANCE;
+    let accurate = radiosities(scene)?;
+    let mesh = cut(scene, SIZES[0].0)?;
+    let tolerance = TOLERANCE;
+    let seconds = best_seconds(&mesh, Estimator::Accurate { tolerance }, 5);
+    let errors = [&course, &accurate].map(|found| 100.0 * relative_error(found, &truth));
+    let figure = |name: &str, value: f64, unit, target| {
+        Figure::new(format!("form_factors.{name}"), Some(value), unit, target)
+    };
+    let hundred = Some(Target::AtLeast(100.0));
+    let ratio = baseline_seconds / seconds;
+    Ok(vec![
+        figure("regular.12.radiosity_error", errors[0], "%", None),
+        figure("accurate.12.radiosity_error", errors[1], "%", None),
+        figure(
+            "accurate.12.accuracy",
+            errors[0] / errors[1],
+            "times the baseline",
+            hundred,
+        ),
+        figure("accurate.12.seconds", seconds, "s", None),
+        figure("accurate.12.speedup", ratio, "times the baseline", hundred),
+    ])
+}
+
+/// Of the patches that do not emit.
+fn radiosities(scene: &Scene) -> Result<Vec<[f32; 3]>, Error> {
+    let pipeline = Pipeline::new(scene, None, &Silent)?;
+    let radiosity = pipeline.solution(Sources::Cached)?.solution.radiosity;
+    let cells = cells(scene, pipeline.mesh());
+    let lit = radiosity
+        .into_iter()
+        .zip(&cells)
+        .filter(|(_, cell)| !cell.emits);
+    Ok(lit.map(|(radiosity, _)| radiosity).collect())
+}
+
+/// Of the squares of all channels.
+fn relative_error(found: &[[f32; 3]], truth: &[[f32; 3]]) -> f64 {
+    let pairs = || found.as_flattened().iter().zip(truth.as_flattened());
+    let squares = |error: fn(f64, f64) -> f64| -> f64 {
+        pairs()
+            .map(|(&a, &b)| error(f64::from(a), f64::from(b)).powi(2))
+            .sum()
+    };
+    (squares(|a, b| a - b) / squares(|_, b| b)).sqrt()
+}
