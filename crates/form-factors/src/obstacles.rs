@@ -84,7 +84,8 @@ impl Between {
     ) -> bool {
         match self {
             Between::Few(faces) if faces.len() <= FASTER_THAN_TREE => {
-                faces.iter().any(|&face| occluders.cuts(face, p, q))
+                let mut others = faces.iter().filter(|&&face| face != i && face != j);
+                others.any(|&face| occluders.cuts(face, p, q))
             }
             _ => occluders.blocked(i, p, j, q),
         }
@@ -105,6 +106,8 @@ impl Kernel for Narrow<'_> {
     fn run<S: Simd>(self, simd: S) -> Option<Vec<FaceId>> {
         let [from, to] = self.ends;
         let tolerance = self.obstacles.occluders.plane_tolerance();
+        // A face may be part of what spans several, and then it hides none of itself.
+        let spans_faces = from.face.is_none() || to.face.is_none();
         let mut partly = Vec::new();
         for &face in self.faces {
             if from.is_on(face) || to.is_on(face) {
@@ -112,8 +115,8 @@ impl Kernel for Narrow<'_> {
             }
             let blocker = self.obstacles.blocker(face);
             match blocker.effect(simd, from, to, tolerance) {
-                Effect::Hides => return None,
-                Effect::Partly => partly.push(face),
+                Effect::Hides if !spans_faces => return None,
+                Effect::Hides | Effect::Partly => partly.push(face),
                 Effect::Nothing => {}
             }
         }

@@ -25,9 +25,11 @@ pub(crate) struct Source {
     heights: Lanes<f32>,
 }
 
-/// Points nearer than this are that far apart, in units of the scene's extent: the kernel stays
-/// finite where points coincide, and heights are zero there.
-const NEAREST: f32 = 1e-9;
+/// Points nearer than this, in units of the scene's extent, exchange nothing: where patches cross and
+/// points coincide, heights are rounding.
+const NEAREST: f32 = 1e-6;
+/// Squared: as good as infinitely far, but two such squares still have a product.
+const FAR: f32 = 1e18;
 
 impl Kernel for Transfer<'_> {
     type Output = Lanes<f32>;
@@ -127,5 +129,7 @@ fn squared_distance<S: Simd>(simd: S, source: &Source, [x, y, z]: [S::F32; 3]) -
     let x = x - simd.splat_f32(from_x);
     let y = y - simd.splat_f32(from_y);
     let z = z - simd.splat_f32(from_z);
-    (x * x + y * y + z * z).max(simd.splat_f32(NEAREST * NEAREST))
+    let squared = x * x + y * y + z * z;
+    let apart = simd.splat_f32(NEAREST * NEAREST).less(squared);
+    squared.select(apart, simd.splat_f32(FAR))
 }

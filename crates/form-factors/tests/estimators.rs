@@ -307,6 +307,86 @@ fn culling_changes_nothing() {
     assert!(shadowed > 200, "occlusion must be exercised: {shadowed}");
 }
 
+/// The faces of a small mesh share a tile, and are taken apart again.
+#[test]
+fn small_faces_do_not_hide_themselves() {
+    let position = |k: usize| {
+        let at = |bit: usize| f64::from(u8::from(k >> bit & 1 != 0)) - 0.5;
+        DVec3::new(at(0), at(1), 1.5 + at(2))
+    };
+    let faces = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    let cube = Shape::Mesh(PolygonMesh {
+        positions: (0..8).map(position).collect(),
+        faces: faces.map(|face| face.to_vec()).to_vec(),
+    });
+    let mesh = mesh_of(&[square([0.0; 2], 0.8, 0.0, true), cube], 4);
+    let factors = regular(&mesh, 2);
+    let plain = Plain::new(&mesh, 2);
+    let monte_carlo = run(
+        &mesh,
+        Estimator::MonteCarlo {
+            points: 2,
+            pairs: 1000,
+            seed: 1,
+        },
+    );
+    let accurate = run(&mesh, Estimator::Accurate { tolerance: 1e-3 });
+    let below = mesh.patches.len() - 6..mesh.patches.len();
+    for i in below {
+        let mut expected = 0.0;
+        for j in 0..mesh.patches.len() {
+            let (found, plain) = (factors.factor(i, j), plain.factor(i, j));
+            assert!(
+                (found - plain).abs() <= 1e-5 * plain + 1e-9,
+                "{i} {j}: {found} {plain}"
+            );
+            expected += plain;
+        }
+        // Two points along an edge are coarse here, and random ones noisy.
+        for other in [&monte_carlo, &accurate] {
+            let fronts = other.rows[i].fronts;
+            assert!(
+                (fronts - expected).abs() < 0.2 * expected + 1e-6,
+                "{fronts} {expected}"
+            );
+        }
+    }
+    assert!(factors.rows.iter().any(|row| row.fronts > 0.1));
+}
+
+/// Points of patches that cross coincide, and their kernel is rounding.
+#[test]
+fn crossing_patches_exchange_finite_light() {
+    for degrees in [10.0_f64, 35.0, 60.0, 90.0, 123.0] {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let (along, across) = (DVec3::new(cos, sin, 0.3), DVec3::new(-sin, cos, 0.7));
+        let crossing = [DVec3::Z, DVec3::X].map(|edge| Shape::Parallelogram {
+            corner: -0.5 * (along + edge),
+            edge_a: along,
+            edge_b: edge,
+        });
+        let other = Shape::Parallelogram {
+            corner: -0.5 * (along + across),
+            edge_a: along,
+            edge_b: across,
+        };
+        let [a, b] = crossing;
+        let factors = regular(&mesh_of(&[a, b, other], 1), 3);
+        assert!(
+            factors.rows.iter().all(|row| row.fronts < 10.0),
+            "{:?}",
+            factors.rows
+        );
+    }
+}
+
 /// The factor of two patches with nothing else in the scene.
 fn alone(mesh: &Mesh, n: u32, i: usize, j: usize) -> f64 {
     if mesh.patches[i].face == mesh.patches[j].face {
