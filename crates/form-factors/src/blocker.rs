@@ -79,14 +79,13 @@ impl Blocker {
     #[inline(always)]
     pub(crate) fn effect<S: Simd>(&self, simd: S, i: &Part, j: &Part, tolerance: f64) -> Effect {
         let [plane, edges @ ..] = &self.planes;
-        let tolerance_of_heights = tolerance;
+        if self.is_behind(i, tolerance) || self.is_behind(j, tolerance) {
+            return Effect::Nothing;
+        }
         let tolerance = simd.splat_f64(tolerance);
         let (plane_i, plane_j) = (i.heights(simd, plane), j.heights(simd, plane));
         let (side_i, side_j) = (side(plane_i, tolerance), side(plane_j, tolerance));
         if side_i.above && side_j.above || side_i.below && side_j.below {
-            return Effect::Nothing;
-        }
-        if self.is_behind(i, tolerance_of_heights) || self.is_behind(j, tolerance_of_heights) {
             return Effect::Nothing;
         }
         let mut edges_i = [plane_i; EDGES];
@@ -123,9 +122,7 @@ impl Blocker {
         }
         if hides { Effect::Hides } else { Effect::Partly }
     }
-}
 
-impl Blocker {
     /// Whether nothing of the blocker is in front of the part, if that has a front.
     fn is_behind(&self, part: &Part, tolerance: f64) -> bool {
         part.face.is_some_and(|(_, plane)| {

@@ -73,7 +73,7 @@ impl Sampler for Lines<'_> {
 
     /// The shadow of a corner that no line has met is small among lines, and on each of them.
     fn unseen(&self, share: f64) -> f64 {
-        share * share.cbrt()
+        share * libm::cbrt(share)
     }
 }
 

@@ -7,7 +7,7 @@ use crate::blocker::{Blocker, Plane};
 use crate::obstacles::Obstacles;
 use crate::random::Stream;
 use crate::target::{Points, Target, dot, height, points};
-use crate::visible::{Shifts, coordinate, shifts};
+use crate::visible::{Shifts, coordinate, ratio, shifts};
 use radiosity_geometry::{DVec3, FaceId, Mesh, Patch, Ray};
 use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
 use std::f64::consts::FRAC_PI_4;
@@ -45,24 +45,14 @@ pub(crate) fn look_around(mesh: &Mesh, obstacles: &Obstacles, index: usize) -> S
         shifts: &shifts(Stream::of_pair(SEED, index, index)),
     });
     let total = |lanes: &[f64; LANES]| lanes.iter().sum::<f64>();
-    let (all, backs, background) = (
-        total(&sums.all),
-        total(&sums.backs),
-        total(&sums.background),
-    );
-    let share = (backs + background) / all;
-    let residual = |lane: usize| {
-        let found = sums.backs[lane] + sums.background[lane];
-        (found - share * sums.all[lane]).powi(2)
-    };
-    let lanes = LANES as f64;
-    let squares: f64 = (0..LANES).map(residual).sum();
-    let scatter = (lanes * squares / (lanes - 1.0)).sqrt() / all;
+    let all = total(&sums.all);
+    let found = std::array::from_fn(|lane| sums.backs[lane] + sums.background[lane]);
+    let (_, scatter) = ratio(&found, &sums.all);
     // What is smaller than the share of one ray may have gone unseen.
-    let unseen = 1.0 / (lanes * RAYS as f64);
+    let unseen = 1.0 / (LANES * RAYS) as f64;
     Surroundings {
-        backs: backs / all,
-        background: background / all,
+        backs: total(&sums.backs) / all,
+        background: total(&sums.background) / all,
         error: scatter.max(unseen),
     }
 }

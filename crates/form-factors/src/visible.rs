@@ -103,11 +103,7 @@ impl Sums {
                 error: 1.0,
             };
         }
-        let value = sum(&self.visible) / all;
-        let residual = |lane: usize| (self.visible[lane] - value * self.all[lane]).powi(2);
-        let squares: f64 = (0..LANES).map(residual).sum();
-        let lanes = LANES as f64;
-        let scatter = (lanes * squares / (lanes - 1.0)).sqrt() / all;
+        let (value, scatter) = ratio(&self.visible, &self.all);
         // Samples of little weight hardly count.
         let unseen = sampler.unseen(sum(&self.squares) / (all * all));
         Share {
@@ -116,6 +112,16 @@ impl Sums {
             error: scatter.max(unseen),
         }
     }
+}
+
+/// The ratio of the sums of two numbers under each shift, and its standard error by their scatter.
+pub(crate) fn ratio(part: &[f64; LANES], all: &[f64; LANES]) -> (f64, f64) {
+    let total: f64 = all.iter().sum();
+    let ratio = part.iter().sum::<f64>() / total;
+    let residual = |(part, all): (&f64, &f64)| (part - ratio * all).powi(2);
+    let squares: f64 = part.iter().zip(all).map(residual).sum();
+    let lanes = LANES as f64;
+    (ratio, (lanes * squares / (lanes - 1.0)).sqrt() / total)
 }
 
 /// Generates a lattice in the order of van der Corput, so that every power of two of its points

@@ -449,7 +449,8 @@ fn thread_counts_leave_no_trace() {
                 .num_threads(threads)
                 .build()
                 .unwrap();
-            pool.install(|| run(&mesh, estimator).exchange.values().to_vec())
+            let found = pool.install(|| run(&mesh, estimator));
+            (found.exchange.values().to_vec(), found.rows)
         };
         let one = with(1);
         assert_eq!(one, with(2));
