@@ -1,4 +1,4 @@
-//! The two estimators on one room, per pair of patches.
+//! The estimators on one room, per pair of patches.
 
 #![allow(missing_docs, reason = "criterion's macros write public items")]
 
@@ -35,6 +35,7 @@ fn estimators(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(n * (n - 1) / 2));
     let modes = [
         ("regular 3x3", Estimator::Regular { points: 3 }),
+        ("accurate 0.01", Estimator::Accurate { tolerance: 0.01 }),
         (
             "monte-carlo 81",
             Estimator::MonteCarlo {

@@ -189,9 +189,12 @@ impl<'a> Estimation<'a> {
         };
         for other in group.tiles.clone() {
             let part_j = &tiles[other].part;
-            let Some(between) = self.view(&between, [part, part_j], FEW) else {
-                continue;
+            // The only tile of a group is all of it.
+            let narrowed = match group.tiles.len() {
+                1 => Some(between.clone()),
+                _ => self.view(&between, [part, part_j], FEW),
             };
+            let Some(between) = narrowed else { continue };
             if let Method::Regular(regular) = &self.method {
                 regular.prepare([tile, other], &mut room.regular);
             }

@@ -11,8 +11,8 @@
 //! - Reciprocity `A_i F_ij = A_j F_ji` holds by construction: one number
 //!   `S_ij = A_i F_ij` is stored per pair.
 //! - A patch sees what is in front of it and shows its own front; both sides of a face block.
-//! - Two patches of one planar face have `F = 0`. That goes by face: two faces of one mesh see
-//!   each other like any others.
+//! - Two patches of one planar face, or of faces joined to one wall, have `F = 0`. That goes by face:
+//!   two faces of one mesh see each other like any others.
 //! - No entry is clamped so that rows fit: what rows sum to is reported.
 //!
 //! This crate knows nothing of materials, emission, cameras or names, so changing those cannot

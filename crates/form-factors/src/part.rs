@@ -30,15 +30,14 @@ impl Part {
         let [origin, b, c, d] = *face.polygon.padded_corners();
         let (u, v) = (b - origin, d - origin);
         debug_assert!(!face.polygon.is_triangle() || c == d);
-        let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
-        let scale = 1.0 / (uu * vv - uv * uv);
+        // Across `u`, so that slivers keep their digits.
+        let slant = u.dot(v) / u.length_squared();
+        let across = v - slant * u;
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for point in points {
-            let (along_u, along_v) = ((point - origin).dot(u), (point - origin).dot(v));
-            let parameters = [
-                scale * (vv * along_u - uv * along_v),
-                scale * (uu * along_v - uv * along_u),
-            ];
+            let t = (point - origin).dot(across) / across.length_squared();
+            let s = (point - origin).dot(u) / u.length_squared() - t * slant;
+            let parameters = [s, t];
             for k in 0..2 {
                 low[k] = low[k].min(parameters[k]);
                 high[k] = high[k].max(parameters[k]);

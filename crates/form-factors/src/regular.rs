@@ -38,15 +38,15 @@ impl Regular {
 
     /// Turns to another pair of tiles.
     pub(crate) fn prepare(&self, [i, j]: [usize; 2], scratch: &mut Scratch) {
+        let near = &self.samples[i];
+        let [local_i, local_j] = &mut scratch.local;
         if scratch.tiles.is_none_or(|tiles| tiles[0] != i) {
             scratch.shades[0].clear();
+            dispatch(Localize(near, near, local_i));
         }
         scratch.shades[1].clear();
+        dispatch(Localize(&self.samples[j], near, local_j));
         scratch.tiles = Some([i, j]);
-        dispatch(Localize {
-            samples: [&self.samples[i], &self.samples[j]],
-            local: &mut scratch.local,
-        });
     }
 
     /// The exchange of a patch of the first tile with each of the second, in units of the total
@@ -133,19 +133,15 @@ fn blocked(
     occluders.blocked_of(&bundle, wanted)
 }
 
-struct Localize<'a> {
-    samples: [&'a Samples; 2],
-    local: &'a mut [Local; 2],
-}
+/// Samples, relative to others.
+struct Localize<'a>(&'a Samples, &'a Samples, &'a mut Local);
 
 impl Kernel for Localize<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let [i, j] = self.samples;
-        let [local_i, local_j] = self.local;
-        i.localize(simd, i, local_i);
-        j.localize(simd, i, local_j);
+        let Localize(samples, near, local) = self;
+        samples.localize(simd, near, local);
     }
 }

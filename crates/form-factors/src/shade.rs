@@ -6,7 +6,7 @@ use radiosity_geometry::FaceId;
 use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
 
 /// Edges are moved outwards by this, in units of the scene's extent, so that no segment slips
-/// through between neighbours: four times what rounding makes of a height.
+/// through between neighbours: eight times what rounding makes of a height.
 const GROWTH: f64 = 4.0 / (1 << 23) as f64;
 
 /// The heights of eight points over the planes of a face.

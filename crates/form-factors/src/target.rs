@@ -26,8 +26,8 @@ pub(crate) struct Points<F> {
 }
 
 impl<F: Float<f64>> Points<F> {
-    #[inline(always)]
     /// The coordinates, by axis.
+    #[inline(always)]
     pub(crate) fn lanes(&self) -> [[f64; LANES]; 3] {
         [self.x.lanes(), self.y.lanes(), self.z.lanes()]
     }

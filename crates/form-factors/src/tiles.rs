@@ -212,6 +212,20 @@ mod tests {
     }
 
     #[test]
+    fn tiles_of_slivers_are_around_them() {
+        for height in [1e-3, 1e-6, 1e-8] {
+            let triangle = [DVec3::ZERO, DVec3::X, DVec3::new(0.4, height, 0.0)];
+            let surfaces = [surface(Shape::Triangle(triangle), 3, 3)];
+            let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
+            for tile in Tiling::new(&mesh, &Walls::new(&mesh)).tiles {
+                let bounds = tile.part.bounds().grown(1e-15);
+                assert!(corners(&mesh, &tile.patches).all(|corner| bounds.contains(corner)));
+                assert!(bounds.extent().y < 2.0 * height);
+            }
+        }
+    }
+
+    #[test]
     fn small_faces_share_tiles() {
         let mesh = subdivide(&[surface(strip(), 2, 2)], Divisions::uniform(1)).unwrap();
         let tiles = Tiling::new(&mesh, &Walls::new(&mesh)).tiles;

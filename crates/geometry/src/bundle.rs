@@ -5,6 +5,7 @@
 
 use crate::bounds::Aabb;
 use crate::bvh::{ShaftVisitor, bits};
+use crate::face_block::around_origin;
 use crate::mesh::FaceId;
 use crate::occluders::{Occluder, Occluders};
 use crate::shaft::Shaft;
@@ -177,17 +178,10 @@ impl Search<'_> {
             self.project(simd, b, axes),
             self.project(simd, c, axes),
         );
-        let (ab, bc) = (edge::<S>(a, b), edge::<S>(b, c));
-        let (mut least, mut most) = (ab.min(bc), ab.max(bc));
-        let mut last = c;
-        if face.corners[2] != face.corners[3] {
-            last = self.project(simd, d, axes);
-            let cd = edge::<S>(c, last);
-            (least, most) = (least.min(cd), most.max(cd));
+        if face.corners[2] == face.corners[3] {
+            return around_origin(simd, [a, b, c], None);
         }
-        let back = edge::<S>(last, a);
-        let zero = simd.splat_f64(0.0);
-        zero.less(most.max(back)) ^ least.min(back).less(zero)
+        around_origin(simd, [a, b, c], Some(self.project(simd, d, axes)))
     }
 
     #[inline(always)]
@@ -198,11 +192,6 @@ impl Search<'_> {
         let z = simd.splat_f64(corner[k]) - simd.f64(&first[k]);
         [x - simd.f64(&shear[0]) * z, y - simd.f64(&shear[1]) * z]
     }
-}
-
-#[inline(always)]
-fn edge<S: Simd>(a: [S::F64; 2], b: [S::F64; 2]) -> S::F64 {
-    a[0] * b[1] - a[1] * b[0]
 }
 
 #[inline(always)]

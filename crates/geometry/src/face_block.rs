@@ -110,21 +110,10 @@ impl FaceBlock {
         let a = project(simd, ray, corner_a);
         let b = project(simd, ray, corner_b);
         let c = project(simd, ray, corner_c);
-        let (ab, bc) = (edge::<S>(a, b), edge::<S>(b, c));
-        let (mut least, mut most) = (ab.min(bc), ab.max(bc));
-        let last = if self.triangles {
-            c
-        } else {
-            let d = project(simd, ray, corner_d);
-            let cd = edge::<S>(c, d);
-            (least, most) = (least.min(cd), most.max(cd));
-            d
-        };
-        let back = edge::<S>(last, a);
-        let zero = simd.splat_f64(0.0);
-        let any_positive = zero.less(most.max(back));
-        let any_negative = least.min(back).less(zero);
-        any_positive ^ any_negative
+        if self.triangles {
+            return around_origin(simd, [a, b, c], None);
+        }
+        around_origin(simd, [a, b, c], Some(project(simd, ray, corner_d)))
     }
 
     #[inline(always)]
@@ -152,6 +141,25 @@ fn project<S: Simd>(simd: S, ray: &Ray, corner: &[[f64; LANES]; 3]) -> [S::F64; 
         x - simd.splat_f64(ray.shear[0]) * z,
         y - simd.splat_f64(ray.shear[1]) * z,
     ]
+}
+
+/// Which polygons, projected along rays, have these inside or on their boundary: those whose edge
+/// functions do not differ in sign. Triangles have no fourth corner.
+#[inline(always)]
+pub(crate) fn around_origin<S: Simd>(
+    simd: S,
+    [a, b, c]: [[S::F64; 2]; 3],
+    d: Option<[S::F64; 2]>,
+) -> u8 {
+    let (ab, bc) = (edge::<S>(a, b), edge::<S>(b, c));
+    let (mut least, mut most) = (ab.min(bc), ab.max(bc));
+    if let Some(d) = d {
+        let cd = edge::<S>(c, d);
+        (least, most) = (least.min(cd), most.max(cd));
+    }
+    let back = edge::<S>(d.unwrap_or(c), a);
+    let zero = simd.splat_f64(0.0);
+    zero.less(most.max(back)) ^ least.min(back).less(zero)
 }
 
 #[inline(always)]

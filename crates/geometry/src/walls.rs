@@ -16,7 +16,7 @@ pub struct Walls {
     pub of_face: Vec<FaceId>,
 }
 
-/// Edges that part by this angle at most run on, and planes are the same.
+/// Edges that part by this angle at most run on. (That planes are the same is a matter of heights.)
 const STRAIGHT: f64 = 1e-9;
 
 impl Walls {
