@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 pub(crate) const EXTENSION: &str = "bin";
 const LOCK: &str = "lock";
+const JOURNAL: &str = "journal";
 
 /// A file in the folder, and the artifact that it is or belongs to.
 pub(crate) struct CacheFile {
@@ -22,6 +23,7 @@ impl CacheFile {
         let suffix = &name[end + 1 + EXTENSION.len()..];
         let is_ours = suffix.is_empty()
             || suffix == format!(".{LOCK}")
+            || suffix == format!(".{JOURNAL}")
             || suffix.ends_with(&format!(".{PARTIAL}"));
         let artifact = path.with_file_name(format!("{scene_and_stage}-{key}.{EXTENSION}"));
         (is_key && is_ours).then_some(CacheFile { path, artifact })
@@ -31,12 +33,32 @@ impl CacheFile {
         self.path == self.artifact
     }
 
-    pub(crate) fn is_partial(&self) -> bool {
-        self.path.extension().is_some_and(|e| e == PARTIAL)
+    pub(crate) fn is_draft(&self) -> bool {
+        self.path == partial_of(&self.artifact)
+    }
+
+    /// Whether an interrupted writer left it.
+    pub(crate) fn is_leftover(&self) -> bool {
+        let extension = self.path.extension();
+        extension.is_some_and(|e| e == PARTIAL || e == JOURNAL)
     }
 }
 
 /// The lock file of an artifact.
 pub(crate) fn lock_of(artifact: &Path) -> PathBuf {
-    artifact.with_extension(format!("{EXTENSION}.{LOCK}"))
+    beside(artifact, LOCK)
+}
+
+/// The file that a [`Draft`](crate::Draft) of an artifact writes.
+pub(crate) fn partial_of(artifact: &Path) -> PathBuf {
+    beside(artifact, PARTIAL)
+}
+
+/// The file that says how far a [`Draft`](crate::Draft) has come.
+pub(crate) fn journal_of(artifact: &Path) -> PathBuf {
+    beside(artifact, JOURNAL)
+}
+
+fn beside(artifact: &Path, ending: &str) -> PathBuf {
+    artifact.with_extension(format!("{EXTENSION}.{ending}"))
 }

@@ -5,6 +5,7 @@
 //! multiple of [`ALIGNMENT`] bytes, so that a memory map of the file can be used in place.
 //! Nothing is decoded before its digest has been checked.
 
+use crate::digests::Digest;
 use crate::key::Key;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -18,8 +19,6 @@ const MAGIC: [u8; 8] = *b"RADIOSTY";
 const VERSION: u32 = 1;
 /// Bytes; a cache line, and the widest vector register.
 pub(crate) const ALIGNMENT: usize = 64;
-/// Values per block; each block has a digest of its own.
-pub(crate) const BLOCK_VALUES: usize = 1 << 18;
 /// No header may be larger, whatever its length field says.
 const HEADER_LIMIT: usize = 1 << 30;
 
@@ -43,7 +42,7 @@ pub(crate) struct Header {
     /// The encoded facts.
     facts: Vec<u8>,
     value_count: u64,
-    pub(crate) block_digests: Vec<[u8; 32]>,
+    pub(crate) block_digests: Vec<Digest>,
 }
 
 /// Why an artifact is not taken from the cache.
@@ -52,6 +51,9 @@ pub enum Miss {
     /// There is no file of this scene and stage.
     #[error("nothing cached yet")]
     Nothing,
+    /// The file is being written, or its writer was interrupted; the next one goes on with it.
+    #[error("unfinished")]
+    Unfinished,
     /// There are files of this scene and stage, made from other inputs.
     #[error("inputs changed")]
     InputsChanged,
@@ -95,25 +97,42 @@ fn config() -> impl bincode::config::Config {
         .with_limit::<HEADER_LIMIT>()
 }
 
-fn encode(value: &impl Serialize) -> Vec<u8> {
+pub(crate) fn encode(value: &impl Serialize) -> Vec<u8> {
     let unlimited = bincode::config::standard().with_fixed_int_encoding();
     bincode::serde::encode_to_vec(value, unlimited).expect("plain data always encodes")
 }
 
 /// Decodes a value that must fill all of `bytes`.
-fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Option<T> {
+pub(crate) fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Option<T> {
     let (value, consumed) = bincode::serde::decode_from_slice(bytes, config()).ok()?;
     (consumed == bytes.len()).then_some(value)
 }
 
-/// Everything that stands before the values, their length included.
-pub(crate) fn head(stage: &str, key: Key, facts: &impl Serialize, values: &[f32]) -> Vec<u8> {
+/// Bytes with their digest before them.
+pub(crate) fn sealed(bytes: &[u8]) -> Vec<u8> {
+    [blake3::hash(bytes).as_bytes(), bytes].concat()
+}
+
+/// The bytes that [`sealed`] was given, if they and their digest are undamaged.
+pub(crate) fn unsealed(sealed: &[u8]) -> Option<&[u8]> {
+    let (digest, bytes) = sealed.split_first_chunk::<32>()?;
+    (blake3::hash(bytes).as_bytes() == digest).then_some(bytes)
+}
+
+/// Everything that stands before `count` values, their number included.
+pub(crate) fn head(
+    stage: &str,
+    key: Key,
+    facts: &impl Serialize,
+    count: u64,
+    block_digests: Vec<Digest>,
+) -> Vec<u8> {
     let header = encode(&Header {
         stage: stage.to_owned(),
         key: key.0,
         facts: encode(facts),
-        value_count: values.len() as u64,
-        block_digests: block_digests(values),
+        value_count: count,
+        block_digests,
     });
     let preamble = Preamble {
         magic: MAGIC,
@@ -123,7 +142,7 @@ pub(crate) fn head(stage: &str, key: Key, facts: &impl Serialize, values: &[f32]
     };
     let mut head = encode(&preamble);
     head.extend(&header);
-    head.extend(after_header(header.len(), values.len() as u64));
+    head.extend(after_header(header.len(), count));
     head
 }
 
@@ -175,13 +194,6 @@ impl Header {
     pub(crate) fn facts<F: DeserializeOwned>(&self) -> Result<F, Miss> {
         decode(&self.facts).ok_or(Miss::Header)
     }
-}
-
-/// The digest of each block of values.
-pub(crate) fn block_digests(values: &[f32]) -> Vec<[u8; 32]> {
-    use rayon::prelude::*;
-    let digest = |block: &[f32]| *blake3::hash(bytemuck::cast_slice(block)).as_bytes();
-    values.par_chunks(BLOCK_VALUES).map(digest).collect()
 }
 
 fn padding_len(header_len: usize) -> usize {

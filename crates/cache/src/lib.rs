@@ -3,11 +3,14 @@
 //! An artifact is a small typed part (its *facts*) and one big array of `f32`. Its identity is
 //! a [`Key`], the digest of everything that its stage read. [`Store::read`] gives an
 //! [`Artifact`] or the reason why there is none ([`Miss`]); every doubt about a file is a miss,
-//! never an error and never wrong data. [`Store::write`] replaces files atomically.
+//! never an error and never wrong data. [`Store::write`] replaces files atomically; a [`Draft`] is
+//! written as it is made, and survives its writer.
 //!
 //! This crate is the only one that names bincode. It knows nothing of physics.
 
 mod cache_file;
+mod digests;
+mod draft;
 mod format;
 mod key;
 mod lock;
@@ -18,6 +21,7 @@ mod store;
 #[cfg(test)]
 mod tests;
 
+pub use draft::Draft;
 pub use format::Miss;
 pub use key::Key;
 pub use lock::Lock;

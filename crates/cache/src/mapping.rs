@@ -16,8 +16,9 @@ pub struct MappedValues {
     reason = "a map is sound only while nobody changes the file"
 )]
 pub(crate) fn map(file: &File) -> std::io::Result<memmap2::Mmap> {
-    // SAFETY: cache files are never changed in place. A new one is written under another name
-    // and renamed over the old one, which stays alive for those who have mapped it.
+    // SAFETY: cache files are never changed in place, but for the head of a draft, at which its
+    // owner does not look. A new file is written under another name and renamed over the old one,
+    // which stays alive for those who have mapped it.
     unsafe { memmap2::Mmap::map(file) }
 }
 

@@ -1,6 +1,7 @@
 //! The cache folder.
 
 use crate::cache_file::{CacheFile, EXTENSION, lock_of};
+use crate::digests::{Digest, Digests};
 use crate::format::{self, Miss};
 use crate::key::Key;
 use crate::lock::Lock;
@@ -34,7 +35,7 @@ pub struct Artifact<F> {
     /// The small typed part.
     pub facts: F,
     values: MappedValues,
-    block_digests: Vec<[u8; 32]>,
+    block_digests: Vec<Digest>,
 }
 
 /// A file in the cache.
@@ -66,7 +67,7 @@ pub struct CacheError {
 impl<F> Artifact<F> {
     /// The big array, its digests checked.
     pub fn into_values(self) -> Result<(F, MappedValues), Miss> {
-        let digests = format::block_digests(self.values.as_ref());
+        let digests = Digests::of(self.values.as_ref()).all();
         let is_good = |(found, expected)| found == expected;
         let good = digests
             .iter()
@@ -142,16 +143,18 @@ impl Store {
         self.make_folder()?;
         let path = self.path(id);
         self.remove_leftovers(&path);
-        let head = format::head(id.stage, id.key, facts, values);
+        let (count, digests) = (values.len() as u64, Digests::of(values).all());
+        let head = format::head(id.stage, id.key, facts, count, digests);
         let data: &[u8] = bytemuck::cast_slice(values);
         replace_file(&path, &[&head, data]).map_err(CacheError::new("write", &path))?;
         Ok((head.len() + data.len()) as u64)
     }
 
-    /// All cached files, by name.
+    /// All cached files, by name, unfinished ones included.
     pub fn list(&self) -> Result<Vec<Entry>, CacheError> {
-        let artifacts = self.files()?.into_iter().filter(CacheFile::is_artifact);
-        Ok(artifacts.map(|file| Entry::of(file.path)).collect())
+        let is_listed = |file: &CacheFile| file.is_artifact() || file.is_draft();
+        let files = self.files()?.into_iter().filter(is_listed);
+        Ok(files.map(Entry::of).collect())
     }
 
     /// Removes all cached files, and what interrupted processes left; returns how many files
@@ -180,16 +183,16 @@ impl Store {
     }
 
     /// Removes what interrupted writers of an artifact left. The caller has its lock.
-    fn remove_leftovers(&self, artifact: &Path) {
+    pub(crate) fn remove_leftovers(&self, artifact: &Path) {
         for file in self.files().unwrap_or_default() {
-            if file.artifact == artifact && file.is_partial() {
+            if file.artifact == artifact && file.is_leftover() {
                 // One that stays does no harm.
                 let _ = fs::remove_file(&file.path);
             }
         }
     }
 
-    fn make_folder(&self) -> Result<(), CacheError> {
+    pub(crate) fn make_folder(&self) -> Result<(), CacheError> {
         fs::create_dir_all(&self.folder).map_err(CacheError::new("create", &self.folder))
     }
 
@@ -224,19 +227,23 @@ impl Store {
 }
 
 impl Entry {
-    fn of(path: PathBuf) -> Entry {
-        let metadata = fs::metadata(&path).ok();
+    fn of(file: CacheFile) -> Entry {
+        let metadata = fs::metadata(&file.path).ok();
         Entry {
             bytes: metadata.as_ref().map_or(0, fs::Metadata::len),
             modified: metadata.and_then(|m| m.modified().ok()),
-            stage: stage_of(&path),
-            path,
+            stage: if file.is_draft() {
+                Err(Miss::Unfinished)
+            } else {
+                stage_of(&file.path)
+            },
+            path: file.path,
         }
     }
 }
 
 impl CacheError {
-    fn new(action: &'static str, path: &Path) -> impl Fn(std::io::Error) -> CacheError {
+    pub(crate) fn new(action: &'static str, path: &Path) -> impl Fn(std::io::Error) -> CacheError {
         let path = path.to_owned();
         move |error| CacheError {
             action,

@@ -1,6 +1,7 @@
 //! What must hold for files: round trips, one cause per miss, no trust in damaged bytes.
 
-use crate::format::{ALIGNMENT, BLOCK_VALUES};
+use crate::digests::BLOCK_VALUES;
+use crate::format::ALIGNMENT;
 use crate::{Id, Key, Miss, Store};
 use proptest::prelude::*;
 use std::fs;

@@ -19,9 +19,19 @@ impl FixedSums {
         }
     }
 
-    pub(crate) fn into_sums(self) -> Vec<f64> {
-        let sums = self.0.into_iter();
-        sums.map(|sum| sum.into_inner() as f64 / UNITS).collect()
+    pub(crate) fn sums(&self) -> Vec<f64> {
+        let units = self.units().into_iter();
+        units.map(|units| units as f64 / UNITS).collect()
+    }
+
+    /// All that is known, for [`FixedSums::from_units`].
+    pub(crate) fn units(&self) -> Vec<u64> {
+        let load = |sum: &AtomicU64| sum.load(Ordering::Relaxed);
+        self.0.iter().map(load).collect()
+    }
+
+    pub(crate) fn from_units(units: Vec<u64>) -> FixedSums {
+        FixedSums(units.into_iter().map(AtomicU64::new).collect())
     }
 }
 
@@ -35,11 +45,21 @@ mod tests {
         let sum = |order: [usize; 5]| {
             let sums = FixedSums::new(2);
             order.into_iter().for_each(|k| sums.add(1, numbers[k]));
-            sums.into_sums()
+            sums.sums()
         };
         let forth = sum([0, 1, 2, 3, 4]);
         assert_eq!(forth, sum([3, 1, 4, 0, 2]));
         assert_eq!(forth[0], 0.0);
         assert!((forth[1] - numbers.iter().sum::<f64>()).abs() < 5.0 / UNITS);
+    }
+
+    #[test]
+    fn a_copy_goes_on_where_the_first_was() {
+        let sums = FixedSums::new(1);
+        sums.add(0, 0.1);
+        let copy = FixedSums::from_units(sums.units());
+        sums.add(0, 0.7);
+        copy.add(0, 0.7);
+        assert_eq!(sums.sums(), copy.sums());
     }
 }

@@ -30,6 +30,7 @@ mod gauss;
 mod lines;
 mod monte_carlo;
 mod obstacles;
+mod pairs;
 mod part;
 mod points;
 mod random;
@@ -48,7 +49,7 @@ use radiosity_matrix::SymmetricMatrix;
 use serde::{Deserialize, Serialize};
 use surroundings::Surroundings;
 
-pub use estimate::{Estimation, estimate};
+pub use estimate::{Estimation, RowErrors, estimate};
 
 /// Raise it whenever the same mesh would give other form factors, because of a change here, in
 /// `geometry`, or in the random numbers: it is part of their key.

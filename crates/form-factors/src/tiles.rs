@@ -20,12 +20,20 @@ pub(crate) struct Group {
     pub(crate) part: Part,
 }
 
-/// All patches of a mesh, each in one tile. All patches of a tile come before those of the next
-/// group.
+/// A short run of tiles that hold consecutive patches.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Strip {
+    pub(crate) tiles: Range<usize>,
+    pub(crate) patches: Range<usize>,
+}
+
+/// All patches of a mesh, each in one tile. All patches of a strip come before those of the next,
+/// and a group consists of whole strips.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Tiling {
     pub(crate) tiles: Vec<Tile>,
     pub(crate) groups: Vec<Group>,
+    pub(crate) strips: Vec<Strip>,
 }
 
 impl Tiling {
@@ -52,6 +60,7 @@ impl Tiling {
             }
         }
         tiling.push_small(mesh, walls, &mut small);
+        tiling.strips = strips(&tiling.tiles);
         tiling
     }
 
@@ -87,6 +96,24 @@ impl Tiling {
         });
         self.tiles.push(Tile { patches, part });
     }
+}
+
+fn strips(tiles: &[Tile]) -> Vec<Strip> {
+    let mut strips: Vec<Strip> = Vec::new();
+    let (mut first_tile, mut first_patch) = (0, 0);
+    let (mut last, mut seen) = (0, 0);
+    for (k, tile) in tiles.iter().enumerate() {
+        seen += tile.patches.len();
+        last = tile.patches.iter().copied().fold(last, usize::max);
+        if seen == last + 1 {
+            strips.push(Strip {
+                tiles: first_tile..k + 1,
+                patches: first_patch..seen,
+            });
+            (first_tile, first_patch) = (k + 1, seen);
+        }
+    }
+    strips
 }
 
 fn corners(mesh: &Mesh, patches: &[usize]) -> impl Iterator<Item = DVec3> {
@@ -194,6 +221,27 @@ mod tests {
         }
         assert_eq!(next, tiling.tiles.len());
         assert!(seen.iter().all(|&seen| seen));
+    }
+
+    #[test]
+    fn strips_hold_consecutive_patches() {
+        let surfaces = [surface(rectangle(1.0, 1.0), 12, 12), surface(strip(), 2, 2)];
+        let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
+        let tiling = Tiling::new(&mesh, &Walls::new(&mesh));
+        let (mut tile, mut patch) = (0, 0);
+        for strip in &tiling.strips {
+            assert_eq!((strip.tiles.start, strip.patches.start), (tile, patch));
+            (tile, patch) = (strip.tiles.end, strip.patches.end);
+            let mut patches: Vec<usize> = tiling.tiles[strip.tiles.clone()]
+                .iter()
+                .flat_map(|tile| tile.patches.iter().copied())
+                .collect();
+            patches.sort_unstable();
+            assert!(patches.into_iter().eq(strip.patches.clone()));
+        }
+        assert_eq!((tile, patch), (tiling.tiles.len(), mesh.patches.len()));
+        // Tiles of two rows of twelve cells, and then of eight patches.
+        assert_eq!(tiling.strips.len(), 6 + 36_usize.div_ceil(8));
     }
 
     #[test]

@@ -148,22 +148,14 @@ pub fn packed_row(i: usize) -> Range<usize> {
     start..start + i
 }
 
-/// Cuts packed values into blocks of whole rows, each with its first row, for filling in
-/// parallel. The last block may have fewer rows.
-pub fn row_blocks_mut(
-    size: usize,
-    values: &mut [f32],
-    rows: usize,
-) -> Vec<(Range<usize>, &mut [f32])> {
-    let mut blocks = Vec::with_capacity(size.div_ceil(rows.max(1)));
+/// The packed values of some rows, row by row, for filling in parallel.
+pub fn rows_mut(rows: Range<usize>, values: &mut [f32]) -> Vec<&mut [f32]> {
     let mut rest = values;
-    for first in (0..size).step_by(rows.max(1)) {
-        let end = (first + rows).min(size);
-        let (block, tail) = rest.split_at_mut(packed_len(end) - packed_len(first));
-        blocks.push((first..end, block));
-        rest = tail;
-    }
-    blocks
+    rows.map(|row| {
+        rest.split_off_mut(..row)
+            .expect("the values of all rows are there")
+    })
+    .collect()
 }
 
 #[cfg(test)]
@@ -208,15 +200,14 @@ mod tests {
         }
 
         #[test]
-        fn blocks_partition_the_rows(size in 0usize..40, rows in 1usize..50) {
-            let mut values = vec![0.0; packed_len(size)];
-            let mut next = 0;
-            for (range, block) in row_blocks_mut(size, &mut values, rows) {
-                prop_assert_eq!(range.start, next);
-                prop_assert_eq!(block.len(), range.clone().sum::<usize>());
-                next = range.end;
+        fn some_rows_are_those_of_the_matrix(first in 0usize..40, more in 0usize..20) {
+            let rows = first..first + more;
+            let matrix = counting(rows.end);
+            let mut values = matrix.values()[packed_len(first)..].to_vec();
+            let found = rows_mut(rows.clone(), &mut values);
+            for (row, found) in rows.zip(found) {
+                prop_assert_eq!(&matrix.values()[packed_row(row)], &*found);
             }
-            prop_assert_eq!(next, size);
         }
     }
 }

@@ -38,18 +38,17 @@ pub struct Origin {
     pub seconds: f64,
 }
 
-/// How one artifact is read, made and written.
-pub(crate) struct Recipe<R, C, W> {
+/// How one artifact is read and made.
+pub(crate) struct Recipe<R, M> {
     /// Takes it from the cache.
     pub(crate) read: R,
-    /// Makes it anew.
-    pub(crate) compute: C,
-    /// Puts it into the cache.
-    pub(crate) write: W,
+    /// Makes it anew, and puts it into the cache if there is one that can be used; says whether it
+    /// is there.
+    pub(crate) make: M,
 }
 
 /// Takes an artifact from the cache, or computes and caches it, one process at a time.
-/// A cache that cannot be written costs a note and nothing else.
+/// A cache that cannot be used costs a note and nothing else.
 pub(crate) fn obtain<T>(
     cache: Option<&Store>,
     observer: &dyn Observer,
@@ -57,16 +56,13 @@ pub(crate) fn obtain<T>(
     sources: Sources,
     recipe: Recipe<
         impl Fn(&Store) -> Result<T, Miss>,
-        impl FnOnce() -> Result<T, Error>,
-        impl FnOnce(&Store, &T) -> Result<u64, CacheError>,
+        impl FnOnce(Option<&Store>) -> Result<(T, bool), Error>,
     >,
 ) -> Result<(T, Origin), Error> {
     let Some(store) = cache else {
         let reason = "caching is off".to_owned();
-        return Ok((
-            (recipe.compute)()?,
-            Origin::new(How::Computed(reason), None),
-        ));
+        let (artifact, _) = (recipe.make)(None)?;
+        return Ok((artifact, Origin::new(How::Computed(reason), None)));
     };
     let path = store.path(id);
     let look = || match sources {
@@ -76,26 +72,33 @@ pub(crate) fn obtain<T>(
     if let Ok(artifact) = look() {
         return Ok((artifact, Origin::new(How::Cached, Some(path))));
     }
-    let not_cached = |error: CacheError| {
-        observer.note(&format!("{error}: no caching of the {}", id.stage));
-    };
     let waiting = || {
         let stage = id.stage;
         observer.note(&format!(
             "waiting for another process that makes the {stage}"
         ));
     };
-    let lock = store.lock(id, waiting).map_err(not_cached).ok();
+    let lock = usable(store.lock(id, waiting), observer, id);
     // Whoever had the lock before may have made it meanwhile.
     let reason = match look() {
         Ok(artifact) => return Ok((artifact, Origin::new(How::Cached, Some(path)))),
         Err(reason) => reason,
     };
-    let artifact = (recipe.compute)()?;
-    let write = |_| (recipe.write)(store, &artifact).map_err(not_cached).ok();
-    let written = lock.as_ref().and_then(write);
-    let file = written.map(|_| path);
+    let (artifact, is_cached) = (recipe.make)(lock.as_ref().map(|_| store))?;
+    let file = is_cached.then_some(path);
     Ok((artifact, Origin::new(How::Computed(reason), file)))
+}
+
+/// What was asked of the cache, or a note that it cannot be used.
+pub(crate) fn usable<T>(
+    result: Result<T, CacheError>,
+    observer: &dyn Observer,
+    id: &Id<'_>,
+) -> Option<T> {
+    let not_cached = |error: &CacheError| {
+        observer.note(&format!("{error}: no caching of the {}", id.stage));
+    };
+    result.inspect_err(not_cached).ok()
 }
 
 impl Origin {

@@ -28,6 +28,7 @@ mod artifact;
 pub mod cli;
 mod error;
 mod export;
+mod job;
 mod observer;
 mod pipeline;
 mod prediction;

@@ -1,14 +1,14 @@
 //! The chain of stages, with the cache between them.
 
-use crate::artifact::{How, Origin, Recipe, Sources, obtain};
+use crate::artifact::{How, Origin, Recipe, Sources, obtain, usable};
 use crate::error::Error;
+use crate::job::Job;
 use crate::observer::{Observer, Stage};
-use crate::prediction::prediction;
-use crate::resources::{Needs, check_image};
+use crate::resources::check_image;
 use crate::rows::RowSummary;
 use crate::settings;
 use radiosity_cache::{Artifact, Id, Key, Miss, Store};
-use radiosity_form_factors::{self as form_factors, Estimation, FormFactors, RowFacts};
+use radiosity_form_factors::{self as form_factors, FormFactors, RowFacts};
 use radiosity_geometry::{self as geometry, Mesh};
 use radiosity_matrix::SymmetricMatrix;
 use radiosity_renderer::{self as renderer, Fields, Pictures};
@@ -104,9 +104,16 @@ impl<'a> Pipeline<'a> {
                 let (rows, values) = store.read::<Vec<RowFacts>>(&id)?.into_values()?;
                 self.stored_form_factors(rows, values).ok_or(Miss::Header)
             },
-            compute: || self.estimate(),
-            write: |store: &Store, made: &FormFactors| {
-                store.write(&id, &made.rows, made.exchange.values())
+            make: |store: Option<&Store>| {
+                let job = Job {
+                    mesh: &self.mesh,
+                    estimator: settings::estimator(self.scene),
+                    observer: self.observer,
+                };
+                match store {
+                    Some(store) => job.run_journaled(store, &id, sources),
+                    None => Ok((job.run()?, false)),
+                }
             },
         };
         let (form_factors, mut origin) = obtain(self.cache, self.observer, &id, sources, recipe)?;
@@ -144,16 +151,19 @@ impl<'a> Pipeline<'a> {
                 let fits = triples.len() == self.mesh.patches.len() && rest.is_empty();
                 fits.then(|| (triples.to_vec(), facts)).ok_or(Miss::Header)
             },
-            compute: || {
+            make: |store: Option<&Store>| {
                 let made = self.form_factors(Sources::Cached)?;
                 on_form_factors(&made.origin, &made.rows);
                 start = Instant::now();
-                let solution = self.solve(&made.form_factors)?;
+                let Solution { radiosity, report } = self.solve(&made.form_factors)?;
                 made_from = Some(made.origin);
-                Ok((solution.radiosity, (solution.report, made.rows)))
-            },
-            write: |store: &Store, made: &(Vec<[f32; 3]>, SolutionFacts)| {
-                store.write(&id, &made.1, made.0.as_flattened())
+                let facts: SolutionFacts = (report, made.rows);
+                let write = |store: &Store| {
+                    let written = store.write(&id, &facts, radiosity.as_flattened());
+                    usable(written, self.observer, &id).is_some()
+                };
+                let is_cached = store.is_some_and(write);
+                Ok(((radiosity, facts), is_cached))
             },
         };
         let ((radiosity, (report, rows)), mut origin) =
@@ -244,21 +254,6 @@ impl<'a> Pipeline<'a> {
             exchange,
             rows,
         })
-    }
-
-    /// Computes the form factors, after checking that the machine can hold them.
-    fn estimate(&self) -> Result<FormFactors, Error> {
-        let estimator = settings::estimator(self.scene);
-        let needs = Needs::of(self.mesh.patches.len(), estimator);
-        needs.check(self.cache)?;
-        let estimation = Estimation::new(&self.mesh, estimator);
-        if let Some(prediction) = prediction(&needs, &estimation, estimator) {
-            self.observer.note(&prediction);
-        }
-        self.observer.begin(Stage::FormFactors, needs.pairs);
-        let made = estimation.run(&|pairs| self.observer.advance(pairs));
-        self.observer.end();
-        Ok(made)
     }
 
     fn solve(&self, form_factors: &FormFactors) -> Result<Solution, Error> {

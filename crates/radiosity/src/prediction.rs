@@ -11,21 +11,22 @@ const PREDICTED_FROM: u64 = 20_000_000;
 const REHEARSED_ONE_IN: u64 = 40;
 const MOST_REHEARSED: u64 = 30_000_000;
 
-/// Patches, pairs, memory, disk and time of an estimation, the time from a rehearsal; `None` if
-/// it will be over soon.
+/// Patches, pairs, memory, disk and time of an estimation of which so many pairs are left, the
+/// time from a rehearsal; `None` if it will be over soon.
 pub(crate) fn prediction(
     needs: &Needs,
+    left: u64,
     estimation: &Estimation<'_>,
     estimator: Estimator,
 ) -> Option<String> {
-    let work = needs.pairs.saturating_mul(estimator.point_pairs());
+    let work = left.saturating_mul(estimator.point_pairs());
     if work < PREDICTED_FROM {
         return None;
     }
     let tried = (work / REHEARSED_ONE_IN).min(MOST_REHEARSED) / estimator.point_pairs();
     let start = Instant::now();
     let tried = estimation.rehearse(tried.max(2 * rayon::current_num_threads() as u64));
-    let seconds = start.elapsed().as_secs_f64() * needs.pairs as f64 / tried as f64;
+    let seconds = start.elapsed().as_secs_f64() * left as f64 / tried as f64;
     Some(format!(
         "{} patches, {} pairs: {} of memory, {} of disk, {}",
         grouped(needs.patches as u64),

@@ -46,14 +46,14 @@ impl Needs {
         }
     }
 
-    /// Refuses what cannot work, with a remedy.
-    pub(crate) fn check(&self, cache: Option<&Store>) -> Result<(), Error> {
-        self.check_memory()?;
-        match cache.and_then(|store| free_disk(store.folder())) {
-            Some(free) if self.disk > free => Err(Error::Resources {
+    /// Refuses what does not fit on the disk beside the bytes that are there, with a remedy.
+    pub(crate) fn check_disk(&self, cache: &Store, there: u64) -> Result<(), Error> {
+        let missing = self.disk.saturating_sub(there);
+        match free_disk(cache.folder()) {
+            Some(free) if missing > free => Err(Error::Resources {
                 problem: format!(
                     "the form factors need {} of disk, but the cache folder has only {} free",
-                    bytes(self.disk),
+                    bytes(missing),
                     bytes(free)
                 ),
                 remedy: "use --no-cache, or a folder on another disk with --cache".to_owned(),
@@ -62,6 +62,7 @@ impl Needs {
         }
     }
 
+    /// Refuses what does not fit into memory, with a remedy.
     pub(crate) fn check_memory(&self) -> Result<(), Error> {
         match usable_memory() {
             Some(usable) if self.memory > usable => Err(Error::Resources {
@@ -187,13 +188,13 @@ mod tests {
     #[test]
     fn impossible_runs_are_refused_with_a_remedy() {
         let needs = |patches, points| Needs::of(patches, Estimator::Regular { points });
-        let error = needs(1 << 20, 3).check(None).unwrap_err().to_string();
+        let error = needs(1 << 20, 3).check_memory().unwrap_err().to_string();
         assert!(
             error.contains("1,048,576 patches need 2.2 TB of memory"),
             "{error}"
         );
         assert!(error.contains("use fewer patches"), "{error}");
-        assert!(needs(100, 3).check(None).is_ok());
+        assert!(needs(100, 3).check_memory().is_ok());
         assert!(needs(4000, 64).memory > 500_000_000, "points count too");
         let error = check_image(1 << 16, 1 << 16).unwrap_err().to_string();
         assert!(

@@ -5,7 +5,7 @@ use super::site::Site;
 use super::terminal::say;
 use crate::error::Error;
 use crate::resources::bytes;
-use radiosity_cache::{Entry, Store};
+use radiosity_cache::{Entry, Miss, Store};
 
 pub(crate) fn run(command: &CacheCommand, site: &Site) -> Result<(), Error> {
     let folder = command.folder.as_ref().unwrap_or(&site.cache);
@@ -36,6 +36,7 @@ fn list(store: &Store) -> Result<(), Error> {
 fn describe(entry: &Entry) -> String {
     let stage = match &entry.stage {
         Ok(stage) => stage.clone(),
+        Err(Miss::Unfinished) => "unfinished".to_owned(),
         Err(miss) => format!("unusable: {miss}"),
     };
     let age = entry.modified.and_then(|time| time.elapsed().ok());

@@ -1,0 +1,169 @@
+//! Whatever is interrupted, cut off or damaged: the artifact has the same bytes in the end.
+
+use super::Draft;
+use crate::cache_file::{journal_of, partial_of};
+use crate::digests::BLOCK_VALUES;
+use crate::{Id, Key, Miss, Store};
+use proptest::prelude::*;
+use std::fs::{self, OpenOptions};
+use tempfile::TempDir;
+
+const FACTS: (u8, f64) = (3, 0.5);
+const BLANK: (u8, f64) = (0, 0.0);
+
+fn id(input: u32) -> Id<'static> {
+    Id {
+        scene: "box",
+        stage: "form-factors",
+        key: Key::of("form-factors", 1, &input),
+    }
+}
+
+fn values(count: usize) -> Vec<f32> {
+    (0..count).map(|k| k as f32).collect()
+}
+
+/// The bytes of an artifact written at once.
+fn expected(values: &[f32]) -> Vec<u8> {
+    let folder = TempDir::new().unwrap();
+    let store = Store::new(folder.path());
+    store.write(&id(1), &FACTS, values).unwrap();
+    fs::read(store.path(&id(1))).unwrap()
+}
+
+/// Goes on with a draft, or begins it, and says where it did.
+fn draft(store: &Store, count: usize) -> (Draft, Option<u64>) {
+    match Draft::resume::<u64>(store, &id(1), &BLANK, count as u64) {
+        Some((draft, state)) => (draft, Some(state)),
+        None => (
+            Draft::begin(store, &id(1), &BLANK, count as u64).unwrap(),
+            None,
+        ),
+    }
+}
+
+/// Finishes what is there, and gives the bytes of the artifact and where it began.
+fn finished(store: &Store, values: &[f32]) -> (Vec<u8>, Option<u64>) {
+    let (mut draft, begun) = draft(store, values.len());
+    draft.append(&values[draft.written() as usize..]).unwrap();
+    assert_eq!(draft.values().unwrap().as_ref(), values);
+    draft.finish(&FACTS).unwrap();
+    let left = fs::read_dir(store.folder()).unwrap().count();
+    assert_eq!(left, 1, "nothing but the artifact stays");
+    (fs::read(store.path(&id(1))).unwrap(), begun)
+}
+
+/// A draft with a checkpoint at `saved` values and more written after it.
+fn interrupted(values: &[f32], saved: usize, more: usize) -> (TempDir, Store) {
+    let folder = TempDir::new().unwrap();
+    let store = Store::new(folder.path());
+    let (mut draft, _) = draft(&store, values.len());
+    draft.append(&values[..saved]).unwrap();
+    draft.checkpoint(&(saved as u64)).unwrap();
+    draft.append(&values[saved..saved + more]).unwrap();
+    (folder, store)
+}
+
+fn flip(path: &std::path::Path, byte: usize) {
+    let mut bytes = fs::read(path).unwrap();
+    let byte = byte % bytes.len();
+    bytes[byte] ^= 1;
+    fs::write(path, bytes).unwrap();
+}
+
+#[test]
+fn a_draft_becomes_the_artifact_that_is_written_at_once() {
+    for count in [0, 1, 1000, BLOCK_VALUES, 2 * BLOCK_VALUES + 7] {
+        let folder = TempDir::new().unwrap();
+        let values = values(count);
+        let (bytes, begun) = finished(&Store::new(folder.path()), &values);
+        assert_eq!(begun, None);
+        assert!(bytes == expected(&values), "{count} values");
+    }
+}
+
+#[test]
+fn drafts_of_other_inputs_are_not_taken() {
+    let (_folder, store) = interrupted(&values(100), 50, 0);
+    let resumes = |id, count| Draft::resume::<u64>(&store, &id, &BLANK, count).is_some();
+    assert!(!resumes(id(2), 100));
+    assert!(!resumes(id(1), 101));
+    assert!(resumes(id(1), 100));
+}
+
+#[test]
+fn half_an_artifact_is_none() {
+    let (_folder, store) = interrupted(&values(100), 50, 50);
+    assert!(store.read::<(u8, f64)>(&id(1)).is_err());
+    let [entry] = &store.list().unwrap()[..] else {
+        panic!("one draft");
+    };
+    assert!(matches!(entry.stage, Err(Miss::Unfinished)));
+    assert_eq!(store.clean().unwrap().0, 2, "the draft and its journal");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn pieces_of_any_length_make_the_same_artifact(
+        lengths in prop::collection::vec(0..BLOCK_VALUES, 1..6),
+    ) {
+        let folder = TempDir::new().unwrap();
+        let store = Store::new(folder.path());
+        let values = values(lengths.iter().sum());
+        for length in lengths {
+            let (mut draft, begun) = draft(&store, values.len());
+            let at = draft.written();
+            prop_assert_eq!(begun.unwrap_or(0), at);
+            draft.append(&values[at as usize..at as usize + length]).unwrap();
+            draft.checkpoint(&draft.written()).unwrap();
+        }
+        prop_assert!(finished(&store, &values).0 == expected(&values));
+    }
+
+    #[test]
+    fn what_comes_after_a_checkpoint_does_not_matter(
+        saved in 0usize..1000,
+        more in 0usize..1000,
+        kept in 0usize..2000,
+    ) {
+        let values = values(2000);
+        let (_folder, store) = interrupted(&values, saved, more);
+        let partial = OpenOptions::new().write(true).open(partial_of(&store.path(&id(1)))).unwrap();
+        let end = partial.metadata().unwrap().len();
+        let lost = 4 * (more - more.min(kept)) as u64;
+        partial.set_len(end - lost).unwrap();
+        let (bytes, begun) = finished(&store, &values);
+        prop_assert_eq!(begun, Some(saved as u64));
+        prop_assert!(bytes == expected(&values));
+    }
+
+    #[test]
+    fn damaged_drafts_begin_anew(byte in 0usize..4000, of_journal: bool) {
+        let values = values(2000);
+        let (_folder, store) = interrupted(&values, 1000, 500);
+        let artifact = store.path(&id(1));
+        if of_journal {
+            flip(&journal_of(&artifact), byte);
+        } else {
+            let head = fs::metadata(partial_of(&artifact)).unwrap().len() as usize - 6000;
+            flip(&partial_of(&artifact), head + byte);
+        }
+        let (bytes, begun) = finished(&store, &values);
+        prop_assert_eq!(begun, None);
+        prop_assert!(bytes == expected(&values));
+    }
+
+    #[test]
+    fn cut_drafts_begin_anew(cut in 1u64..9999) {
+        let values = values(2000);
+        let (_folder, store) = interrupted(&values, 1000, 0);
+        let partial = OpenOptions::new().write(true).open(partial_of(&store.path(&id(1)))).unwrap();
+        let length = partial.metadata().unwrap().len();
+        partial.set_len(length.saturating_sub(cut)).unwrap();
+        let (bytes, begun) = finished(&store, &values);
+        prop_assert_eq!(begun, None);
+        prop_assert!(bytes == expected(&values));
+    }
+}

@@ -1,0 +1,103 @@
+//! The walk from a tile and a group of tiles down to single pairs, and what each estimator makes of
+//! them.
+
+use crate::accurate::Exchange;
+use crate::estimate::{Estimation, Method, Room};
+use crate::obstacles::Between;
+use crate::part::Part;
+use crate::tiles::{Group, Tile};
+
+/// So many faces are listed between parts that will be looked at more closely, and at last.
+const FEW: usize = 64;
+const MANY: usize = 1024;
+
+impl Estimation<'_> {
+    /// Estimates the exchange of the patches of a tile with those of a group; tells those that may
+    /// not be zero: lane, index, the exchange in units of the total area, its error in scene units.
+    pub(crate) fn against(
+        &self,
+        tile: usize,
+        group: &Group,
+        room: &mut Room,
+        tell: &mut impl FnMut(usize, usize, f32, f64),
+    ) {
+        let tiles = &self.tiling.tiles;
+        let part = &tiles[tile].part;
+        // Accurate pairs have a list of their own.
+        let most = match self.method {
+            Method::Regular(_) | Method::MonteCarlo(_) => MANY,
+            Method::Accurate(_) => FEW,
+        };
+        let Some(between) = self.view(&Between::Many, [part, &group.part], FEW) else {
+            return;
+        };
+        for other in group.tiles.clone() {
+            let part_j = &tiles[other].part;
+            // The only tile of a group is all of it.
+            let narrowed = match group.tiles.len() {
+                1 => Some(between.clone()),
+                _ => self.view(&between, [part, part_j], FEW),
+            };
+            let Some(between) = narrowed else { continue };
+            if let Method::Regular(regular) = &self.method {
+                regular.prepare([tile, other], &mut room.regular);
+            }
+            for (lane, &i) in tiles[tile].patches.iter().enumerate() {
+                if let Some(between) = self.view(&between, [&self.parts[i], part_j], most) {
+                    self.exchange((i, lane), &tiles[other], &between, room, tell);
+                }
+            }
+        }
+    }
+
+    /// What may stand between two parts, given what may between larger ones around them; `None` if
+    /// they cannot see each other's fronts.
+    fn view(&self, between: &Between, ends: [&Part; 2], most: usize) -> Option<Between> {
+        let [from, to] = ends;
+        let same_face = matches!((from.face, to.face), (Some((i, _)), Some((j, _))) if i == j);
+        if same_face || !from.may_face(to, self.obstacles.occluders.plane_tolerance()) {
+            return None;
+        }
+        self.obstacles.narrow(between, ends, most)
+    }
+
+    /// Estimates the exchange of a patch with those of a tile.
+    fn exchange(
+        &self,
+        (i, lane): (usize, usize),
+        tile: &Tile,
+        between: &Between,
+        room: &mut Room,
+        tell: &mut impl FnMut(usize, usize, f32, f64),
+    ) {
+        let patches = &self.mesh.patches;
+        let wall = |patch: usize| self.obstacles.wall(&patches[patch]);
+        let others = tile.patches.iter().copied();
+        let others = others.enumerate().filter(|&(_, j)| wall(j) != wall(i));
+        match &self.method {
+            Method::Regular(regular) => {
+                let values = regular.exchange(lane, between, &self.obstacles, &mut room.regular);
+                others.for_each(|(k, j)| tell(lane, j, values[k], 0.0));
+            }
+            Method::MonteCarlo(monte_carlo) => {
+                for (_, j) in others {
+                    let ends = [(i, &patches[i]), (j, &patches[j])];
+                    let value = monte_carlo.estimate(ends, &mut room.strata, |p, q| {
+                        !between.cuts(&self.obstacles.occluders, (wall(i), p), (wall(j), q))
+                    });
+                    tell(lane, j, (value * self.scale) as f32, 0.0);
+                }
+            }
+            Method::Accurate(accurate) => {
+                for (_, j) in others {
+                    let parts = [&self.parts[i], &self.parts[j]];
+                    if let Some(between) = self.view(between, parts, MANY) {
+                        let exchange = accurate.exchange([i, j], &between, &self.obstacles);
+                        let Exchange { value, error } = exchange;
+                        tell(lane, j, (value * self.scale) as f32, error);
+                    }
+                }
+            }
+        }
+    }
+}

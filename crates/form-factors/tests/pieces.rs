@@ -1,0 +1,63 @@
+//! Rows estimated a few at a time are those estimated at once.
+
+use radiosity_form_factors::{Estimation, Estimator, FormFactors, RowErrors};
+use radiosity_geometry::{Mesh, subdivide};
+use radiosity_matrix::{SymmetricMatrix, packed_len, packed_row};
+use radiosity_scene::load;
+use std::path::Path;
+
+fn mesh() -> Mesh {
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let scene = load(&scenes.join("cornell.toml")).unwrap();
+    subdivide(&scene.geometry, radiosity_geometry::Divisions::uniform(5)).unwrap()
+}
+
+fn in_pieces(estimation: &Estimation<'_>, size: usize, pairs: u64) -> (FormFactors, usize) {
+    let mut values = vec![0.0; packed_len(size)];
+    let errors = RowErrors::new(size);
+    let (mut done, mut pieces) = (0, 0);
+    while let Some(rows) = estimation.next_rows(done, pairs) {
+        done = rows.end;
+        pieces += 1;
+        let range = packed_row(rows.start).start..packed_len(rows.end);
+        estimation.fill_rows(rows, &mut values[range], &errors, &|_| ());
+    }
+    assert_eq!(done, size);
+    let exchange = SymmetricMatrix::new(size, values).unwrap();
+    (estimation.complete(exchange, &errors), pieces)
+}
+
+#[test]
+fn pieces_make_the_whole() {
+    let mesh = mesh();
+    let size = mesh.patches.len();
+    let (points, pairs, seed) = (2, 4, 0);
+    for estimator in [
+        Estimator::Regular { points },
+        Estimator::MonteCarlo {
+            points,
+            pairs,
+            seed,
+        },
+        Estimator::Accurate { tolerance: 0.01 },
+    ] {
+        let estimation = Estimation::new(&mesh, estimator);
+        let whole = estimation.run(&|_| ());
+        for (pairs, least) in [(1, 20), (9_999, 4)] {
+            let (made, pieces) = in_pieces(&estimation, size, pairs);
+            assert!(pieces >= least, "{pieces} pieces");
+            assert!(made.exchange.values() == whole.exchange.values());
+            assert_eq!(made.rows, whole.rows);
+        }
+    }
+}
+
+#[test]
+fn rows_begin_where_others_end() {
+    let mesh = mesh();
+    let estimation = Estimation::new(&mesh, Estimator::Regular { points: 1 });
+    assert_eq!(estimation.next_rows(3, 1), None, "within a tile");
+    assert_eq!(estimation.next_rows(mesh.patches.len(), 1), None);
+    let all = estimation.next_rows(0, u64::MAX);
+    assert_eq!(all, Some(0..mesh.patches.len()));
+}
