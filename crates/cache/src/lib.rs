@@ -26,5 +26,5 @@ pub use format::Miss;
 pub use key::Key;
 pub use lock::Lock;
 pub use mapping::MappedValues;
-pub use replace::replace_file;
+pub use replace::{replace_file, replace_file_by};
 pub use store::{Artifact, CacheError, Entry, Id, Store};

@@ -1,6 +1,6 @@
 //! Atomic replacement of files.
 
-use std::io::Write;
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 /// The ending of files that are being written, or whose writer was interrupted.
@@ -9,21 +9,33 @@ pub(crate) const PARTIAL: &str = "partial";
 /// Writes a file so that its path names either the old contents or all of the new ones, at
 /// every moment, after any interruption, and whoever else writes it: the parts go into a file of
 /// its own beside it, `NAME.RANDOM.partial`, which is then renamed.
-pub fn replace_file(path: &Path, parts: &[&[u8]]) -> std::io::Result<()> {
+pub fn replace_file(path: &Path, parts: &[&[u8]]) -> io::Result<()> {
+    replace_file_by(path, |file| {
+        parts.iter().try_for_each(|part| file.write_all(part))
+    })
+}
+
+/// [`replace_file`] with contents that are written bit by bit.
+pub fn replace_file_by(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
-    let mut file = with_usual_permissions(
+    let file = with_usual_permissions(
         tempfile::Builder::new()
             .prefix(&format!("{name}."))
             .suffix(&format!(".{PARTIAL}")),
     )
     .tempfile_in(folder)?;
-    for part in parts {
-        file.write_all(part)?;
-    }
+    let mut buffered = BufWriter::with_capacity(1 << 20, file);
+    write(&mut buffered)?;
+    let file = buffered
+        .into_inner()
+        .map_err(io::IntoInnerError::into_error)?;
     file.as_file().sync_all()?;
     file.persist(path).map_err(|error| error.error)?;
     Ok(())

@@ -28,6 +28,7 @@ mod exchange;
 mod fixed;
 mod gauss;
 mod lines;
+mod lumped;
 mod monte_carlo;
 mod obstacles;
 mod pairs;
@@ -50,6 +51,7 @@ use serde::{Deserialize, Serialize};
 use surroundings::Surroundings;
 
 pub use estimate::{Estimation, RowErrors, estimate};
+pub use lumped::LumpedFactors;
 
 /// Raise it whenever the same mesh would give other form factors, because of a change here, in
 /// `geometry`, or in the random numbers: it is part of their key.

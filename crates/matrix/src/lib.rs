@@ -102,6 +102,31 @@ impl SymmetricMatrix {
     }
 }
 
+impl SymmetricMatrix {
+    /// The sums over blocks of entries, in `f64`: entry `a * parts + b` is that of all `(i, j)`
+    /// with `i` in part `a` and `j` in part `b`. Every `part_of[i]` is below `parts`. The same for
+    /// any number of threads.
+    pub fn lumped_sums(&self, part_of: &[usize], parts: usize) -> Vec<f64> {
+        let mut rows_of = vec![Vec::new(); parts];
+        part_of
+            .iter()
+            .enumerate()
+            .for_each(|(row, &part)| rows_of[part].push(row));
+        let values = self.values();
+        // Of the stored triangle; the other one is its mirror image.
+        let mut stored = vec![0.0; parts * parts];
+        let by_part = stored.par_chunks_mut(parts.max(1)).zip(&rows_of);
+        by_part.for_each(|(sums, rows)| {
+            for &row in rows {
+                let entries = values[packed_row(row)].iter().zip(part_of);
+                entries.for_each(|(&value, &part)| sums[part] += f64::from(value));
+            }
+        });
+        let sum = |k: usize| stored[k] + stored[k % parts * parts + k / parts];
+        (0..parts * parts).map(sum).collect()
+    }
+}
+
 /// Rows that are summed together, about as many numbers in each: fixed, so that sums do not depend
 /// on the number of threads.
 const BANDS: usize = 16;
@@ -196,6 +221,21 @@ mod tests {
                 for j in 0..size {
                     prop_assert_eq!(matrix.get(i, j), matrix.get(j, i));
                 }
+            }
+        }
+
+        #[test]
+        fn lumped_sums_are_sums_over_blocks(part_of in prop::collection::vec(0usize..4, 0..40)) {
+            let matrix = counting(part_of.len());
+            let sums = matrix.lumped_sums(&part_of, 4);
+            for (k, &sum) in sums.iter().enumerate() {
+                let mut direct = 0.0;
+                for i in (0..part_of.len()).filter(|&i| part_of[i] == k / 4) {
+                    for j in (0..part_of.len()).filter(|&j| part_of[j] == k % 4) {
+                        direct += f64::from(matrix.get(i, j));
+                    }
+                }
+                prop_assert_eq!(direct, sum);
             }
         }
 

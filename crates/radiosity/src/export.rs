@@ -72,7 +72,7 @@ fn table(
 }
 
 /// All patches with their two coordinates on the surface, in the order of the input.
-fn input_order(scene: &Scene, mesh: &Mesh) -> Vec<(usize, [u32; 2])> {
+pub(crate) fn input_order(scene: &Scene, mesh: &Mesh) -> Vec<(usize, [u32; 2])> {
     let mut faces: Vec<&Face> = mesh.faces.iter().collect();
     // Stable: the two halves of a folded quad keep their order.
     faces.sort_by_key(|face| (face.surface, face.input_index));

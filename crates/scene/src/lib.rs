@@ -9,6 +9,7 @@
 mod camera;
 mod file;
 mod material;
+mod mesh;
 mod obj;
 mod scene;
 mod settings;

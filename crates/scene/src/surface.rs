@@ -1,10 +1,11 @@
 //! `[[surfaces]]`.
 
 use crate::material::Material;
+use crate::mesh::MeshTable;
 use crate::obj;
 use crate::source::{Complaint, SceneError, Source};
 use crate::values::{Counts, Vector, divisions, require, vector};
-use radiosity_geometry::{self as geometry, DVec3, Divisions, PolygonMesh, Shape, ShapeError};
+use radiosity_geometry::{self as geometry, DVec3, Divisions, Shape};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -15,6 +16,8 @@ use toml::Spanned;
 pub struct Surface {
     /// Its name, unique in the scene.
     pub name: String,
+    /// The group of surfaces that it belongs to, by default one of its own: its name.
+    pub group: String,
     /// Index into the scene's materials, for each face in input order; just one for a surface
     /// of one face.
     pub materials: Vec<usize>,
@@ -27,6 +30,7 @@ pub struct Surface {
 pub(crate) struct SurfaceTable {
     name: Spanned<String>,
     material: Spanned<String>,
+    group: Option<Spanned<String>>,
     /// For meshes: from the names of groups and materials in the mesh file.
     #[serde(default)]
     materials: BTreeMap<Spanned<String>, Spanned<String>>,
@@ -46,14 +50,6 @@ struct ParallelogramTable {
     edge_b: Vector,
 }
 
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct MeshTable {
-    file: Spanned<String>,
-    scale: Option<Spanned<f64>>,
-    translate: Option<Vector>,
-}
-
 /// What surfaces are checked against.
 pub(crate) struct Context<'a> {
     pub(crate) source: Source<'a>,
@@ -63,10 +59,10 @@ pub(crate) struct Context<'a> {
 }
 
 /// A shape, and for meshes the group and material names of each face.
-struct Geometry {
-    shape: Shape,
-    span: std::ops::Range<usize>,
-    labels: Vec<obj::Label>,
+pub(crate) struct Geometry {
+    pub(crate) shape: Shape,
+    pub(crate) span: std::ops::Range<usize>,
+    pub(crate) labels: Vec<obj::Label>,
 }
 
 impl Context<'_> {
@@ -95,7 +91,29 @@ impl Context<'_> {
             result.0.push(shape);
             result.1.push(surface);
         }
+        self.check_groups(tables, &result.1)?;
         Ok(result)
+    }
+
+    /// A group may have the name of a surface only if that belongs to it.
+    fn check_groups(
+        &self,
+        tables: &[Spanned<SurfaceTable>],
+        surfaces: &[Surface],
+    ) -> Result<(), SceneError> {
+        let group_of: BTreeMap<&str, &str> = surfaces
+            .iter()
+            .map(|surface| (surface.name.as_str(), surface.group.as_str()))
+            .collect();
+        for group in tables.iter().filter_map(|t| t.get_ref().group.as_ref()) {
+            let name = group.get_ref().as_str();
+            if group_of.get(name).is_some_and(|other| *other != name) {
+                let title = format!("`{name}` is a group, and a surface of another group");
+                let complaint = Complaint::new(title, "choose another name");
+                return Err(self.source.error(group.span(), &complaint));
+            }
+        }
+        Ok(())
     }
 
     fn surface(
@@ -124,8 +142,14 @@ impl Context<'_> {
             let complaint = Complaint::new(title, "give one number");
             return Err(self.source.error(counts.span(), &complaint));
         }
+        if let Some(group) = &table.group {
+            let has_text = |name: &String| !name.trim().is_empty();
+            require(&self.source, group, has_text, "a group", "some text")?;
+        }
+        let group = table.group.as_ref().map_or(name, |group| group.get_ref());
         let surface = Surface {
             name: name.clone(),
+            group: group.clone(),
             materials: self.materials_of(table, &labels)?,
             polygons: labels.iter().map(|label| label.polygon as u32).collect(),
         };
@@ -185,74 +209,6 @@ impl Context<'_> {
             let complaint = Complaint::new(title, format!("give {N} points"));
             self.source.error(corners.span(), &complaint)
         })
-    }
-
-    fn mesh(&self, table: &MeshTable) -> Result<Geometry, SceneError> {
-        let path = self.folder.join(table.file.get_ref());
-        let bytes = std::fs::read(&path).map_err(|error| {
-            let file = table.file.get_ref();
-            let complaint = Complaint::new(format!("cannot read the mesh `{file}`: {error}"), "")
-                .suggest(file, self.obj_files_near(file).iter().map(String::as_str));
-            self.source.error(table.file.span(), &complaint)
-        })?;
-        // Comments and names may be in any encoding.
-        let text = String::from_utf8_lossy(&bytes);
-        let source = Source {
-            path: &path,
-            text: &text,
-        };
-        let obj::ObjMesh { mut mesh, labels } = obj::parse(&source)?;
-        self.transform(table, &mut mesh)?;
-        let shape = Shape::Mesh(mesh);
-        if let Err(ShapeError::FaceWithoutArea { face }) = shape.polygons() {
-            let title = "this face has no area";
-            let complaint = Complaint::new(title, "its corners coincide or lie on a line")
-                .help("remove it from the mesh");
-            return Err(source.error_in_line(labels[face].line(&text), &complaint));
-        }
-        Ok(Geometry {
-            shape,
-            span: table.file.span(),
-            labels,
-        })
-    }
-
-    fn transform(&self, table: &MeshTable, mesh: &mut PolygonMesh) -> Result<(), SceneError> {
-        let mut scale = 1.0;
-        if let Some(entry) = &table.scale {
-            let positive = |&x: &f64| x > 0.0 && x.is_finite();
-            require(
-                &self.source,
-                entry,
-                positive,
-                "`scale`",
-                "a positive number",
-            )?;
-            scale = *entry.get_ref();
-        }
-        let offset = match &table.translate {
-            Some(offset) => vector(&self.source, offset, "`translate`")?,
-            None => DVec3::ZERO,
-        };
-        for position in &mut mesh.positions {
-            *position = scale * *position + offset;
-        }
-        Ok(())
-    }
-
-    /// The mesh files in the folder that `file` names, for suggestions.
-    fn obj_files_near(&self, file: &str) -> Vec<String> {
-        let named = Path::new(file).parent().unwrap_or(Path::new(""));
-        let Ok(entries) = std::fs::read_dir(self.folder.join(named)) else {
-            return Vec::new();
-        };
-        let mut names: Vec<String> = entries
-            .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
-            .filter(|name| name.ends_with(".obj"))
-            .map(|name| named.join(name).display().to_string())
-            .collect();
-        names.sort();
-        names
     }
 
     /// The material of each face: by its material name in the mesh file, else by its group,

@@ -56,6 +56,9 @@ fn a_scene_means_what_it_says() {
     assert_eq!(scene.material(SurfaceId(1), 0).emission, [12.0; 3]);
     assert!(matches!(scene.geometry[1].shape, Shape::Triangle(_)));
     assert!(scene.camera.is_some());
+    assert_eq!(scene.surfaces[1].group, "wing", "a group of its own");
+    let grouped = GOOD.replace("name = \"wing\"", "name = \"wing\"\ngroup = \"floor\"");
+    assert_eq!(parse_text(&grouped).unwrap().surfaces[1].group, "floor");
 }
 
 #[test]
@@ -90,6 +93,12 @@ fn mistakes_are_explained() {
         ("material = \"white\"", "material = \"xyz\""),
         ("name = \"wing\"", "name = \"floor\""),
         ("name = \"wing\"", "name = \"\""),
+        ("name = \"wing\"", "name = \"wing\"\ngroup = \" \""),
+        (
+            "name = \"wing\"",
+            "name = \"wing\"\ngroup = \"wings\"\nmaterial = \"lamp\"\n\
+             triangle = [[0, 0, 9], [1, 0, 9], [0, 1, 9]]\n[[surfaces]]\nname = \"c\"\ngroup = \"wing\"",
+        ),
         ("emission = 12", "emission = 1e-170"),
         ("max_patch_edge = 0.25", "materials = { base = \"white\" }"),
         ("edge_b = [0, 1, 0]", "edge_b = [2, 0, 0]"),

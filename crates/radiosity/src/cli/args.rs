@@ -1,8 +1,8 @@
 //! The command line, as clap reads it.
 
 use super::parse::{
-    parse_counts, parse_csv_path, parse_difference_path, parse_positive, parse_row_tolerance,
-    parse_size, parse_tolerance,
+    parse_counts, parse_csv_path, parse_difference_path, parse_matrix_path, parse_positive,
+    parse_row_tolerance, parse_size, parse_threshold, parse_tolerance,
 };
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -153,6 +153,18 @@ pub struct FormFactorsCommand {
     /// Compute them even if they are cached
     #[arg(long)]
     pub recompute: bool,
+    /// Write the matrix F[i, j], from row i to column j: a path that ends in .npy (float32) or .csv.
+    /// What the rows are, with areas, sums and errors, is written beside it as NAME.rows.csv
+    #[arg(long, value_name = "FILE", value_parser = parse_matrix_path)]
+    pub export: Option<PathBuf>,
+    /// What the rows of the exported matrix are; by surface or group, .csv has lines of
+    /// from,to,F,error
+    #[arg(long, value_enum, default_value = "patch", requires = "export")]
+    pub by: ByArg,
+    /// Write only entries of at least X, as lines of row,column,F; the sum of the others is
+    /// a column of NAME.rows.csv
+    #[arg(long, value_name = "X", value_parser = parse_threshold, allow_negative_numbers = true, requires = "export")]
+    pub sparse: Option<f64>,
 }
 
 /// `solve`.
@@ -300,6 +312,17 @@ pub enum CacheAction {
     List,
     /// Remove all of them but those in use
     Clean,
+}
+
+/// [`By`](crate::By) on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ByArg {
+    /// Patches, in the order of the input
+    Patch,
+    /// Surfaces: the mean over their patches, weighted by area
+    Surface,
+    /// Groups of surfaces, as the scene names them
+    Group,
 }
 
 /// [`Mode`](radiosity_scene::Mode) on the command line.

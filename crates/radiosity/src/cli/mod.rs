@@ -4,6 +4,7 @@ mod apply;
 mod args;
 mod cache_folder;
 mod compare;
+mod form_factors;
 mod parse;
 mod reference;
 mod run;

@@ -48,6 +48,17 @@ pub(super) fn parse_csv_path(text: &str) -> Result<PathBuf, String> {
     parse_path(text, &["csv"])
 }
 
+pub(super) fn parse_matrix_path(text: &str) -> Result<PathBuf, String> {
+    parse_path(text, &["npy", "csv"])
+}
+
+pub(super) fn parse_threshold(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(x) if (0.0..1.0).contains(&x) => Ok(x),
+        _ => Err("expected a number from 0 to 1, like 1e-6".to_owned()),
+    }
+}
+
 pub(super) fn parse_difference_path(text: &str) -> Result<PathBuf, String> {
     parse_path(text, &["png", "pfm"])
 }

@@ -1,11 +1,11 @@
 //! What each command does.
 
 use super::args::{
-    CheckArgs, Command, DisplayArgs, DisplayCommand, EstimateArgs, FormFactorsCommand, FormatArg,
-    SolveCommand,
+    CheckArgs, Command, DisplayArgs, DisplayCommand, EstimateArgs, FormatArg, SolveCommand,
 };
 use super::cache_folder;
 use super::compare;
+use super::form_factors;
 use super::reference;
 use super::site::Site;
 use super::terminal::{Terminal, say, tell};
@@ -14,12 +14,13 @@ use crate::error::Error;
 use crate::export::radiosity_table;
 use crate::pipeline::Pipeline;
 use crate::report::{DisplayReport, Report, check_lines, needs_of};
-use radiosity_cache::{Store, replace_file};
+use radiosity_cache::{Store, replace_file_by};
 use radiosity_renderer::{Image, PictureFormat, Pictures, ToneMap, encode};
 use radiosity_scene::{ImageSettings, Scene};
 use radiosity_simd::InstructionSet;
 use radiosity_solver::Solution;
 use std::collections::BTreeMap;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -34,7 +35,7 @@ pub fn run(command: &Command, site: &Site) -> ExitCode {
     }
     let result = match command {
         Command::Render(args) | Command::Display(args) => display(args, site),
-        Command::FormFactors(args) => form_factors(args, site),
+        Command::FormFactors(args) => form_factors::run(args, site),
         Command::Solve(args) => solve(args, site),
         Command::Reference(args) => reference::run(args, site),
         Command::Compare(args) => compare::run(args, site),
@@ -48,26 +49,6 @@ pub fn run(command: &Command, site: &Site) -> ExitCode {
             ExitCode::from(error.exit_code())
         }
     }
-}
-
-fn form_factors(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
-    let mut scene = site.load(&args.scene.scene)?;
-    args.scene.apply(&mut scene);
-    args.estimate.apply(&mut scene);
-    let sources = if args.recompute {
-        Sources::Computed
-    } else {
-        Sources::Cached
-    };
-    let terminal = Terminal::new(args.estimate.json);
-    with_threads(args.estimate.threads, || {
-        let store = store(&args.estimate, site);
-        let pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
-        let mut report = Report::new(&scene, pipeline.mesh(), &terminal);
-        let made = pipeline.form_factors(sources)?;
-        report.form_factors(&made.origin, &made.rows, &pipeline);
-        report.finish()
-    })
 }
 
 fn solve(args: &SolveCommand, site: &Site) -> Result<(), Error> {
@@ -148,7 +129,7 @@ fn reported_solution(
     Ok(solved.solution)
 }
 
-fn store(args: &EstimateArgs, site: &Site) -> Option<Store> {
+pub(super) fn store(args: &EstimateArgs, site: &Site) -> Option<Store> {
     let folder = args.cache.folder.as_ref().unwrap_or(&site.cache);
     (!args.cache.no_cache).then(|| Store::new(folder))
 }
@@ -241,7 +222,15 @@ fn encoded(image: &Image, settings: &ImageSettings, format: FormatArg) -> Vec<u8
 }
 
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    replace_file(path, &[bytes]).map_err(|error| Error::Output {
+    write_by(path, |file| file.write_all(bytes))
+}
+
+/// [`write`] for what is written bit by bit.
+pub(super) fn write_by(
+    path: &Path,
+    write: impl FnOnce(&mut dyn io::Write) -> io::Result<()>,
+) -> Result<(), Error> {
+    replace_file_by(path, write).map_err(|error| Error::Output {
         path: path.to_owned(),
         error,
     })

@@ -1,0 +1,265 @@
+//! Form factors as tables for other programs.
+//!
+//! The matrix has entry `F[i, j]` from row `i` to column `j`: the share of the power leaving `i`
+//! that arrives at `j`. Rows are patches in input order, or surfaces, or groups of them.
+
+use crate::export::input_order;
+use radiosity_form_factors::{FormFactors, LumpedFactors, RowFacts};
+use radiosity_geometry::{Mesh, Patch};
+use radiosity_scene::{Scene, Surface};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
+/// What the rows of an exported matrix are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum By {
+    /// Patches, in the order of [`radiosity_table`](crate::radiosity_table).
+    Patch,
+    /// Surfaces, in scene order.
+    Surface,
+    /// Groups of surfaces, in the order of their first ones.
+    Group,
+}
+
+/// The form factors of a scene, ready for export.
+pub struct FactorTable<'a> {
+    rows: Vec<TableRow<'a>>,
+    entries: Entries<'a>,
+}
+
+/// What is known of a row beside its entries.
+struct TableRow<'a> {
+    /// The surface or group.
+    name: &'a str,
+    /// Of patches.
+    cell: Option<[u32; 2]>,
+    area: f64,
+    facts: RowFacts,
+}
+
+enum Entries<'a> {
+    OfPatches {
+        form_factors: &'a FormFactors,
+        /// The patch of each row.
+        order: Vec<usize>,
+        total_area: f64,
+    },
+    OfParts(LumpedFactors),
+}
+
+/// Rows that are computed at a time.
+const ROWS_AT_A_TIME: usize = 64;
+
+impl<'a> FactorTable<'a> {
+    /// The form factors between the patches, surfaces or groups of a scene.
+    pub fn new(
+        scene: &'a Scene,
+        mesh: &Mesh,
+        form_factors: &'a FormFactors,
+        by: By,
+    ) -> FactorTable<'a> {
+        let name_of: fn(&Surface) -> &str = match by {
+            By::Patch => return FactorTable::of_patches(scene, mesh, form_factors),
+            By::Surface => |surface| &surface.name,
+            By::Group => |surface| &surface.group,
+        };
+        let mut names: Vec<&str> = Vec::new();
+        let mut part_of_name = BTreeMap::new();
+        let mut part_of_surface = |surface| {
+            let name = name_of(surface);
+            *part_of_name.entry(name).or_insert_with(|| {
+                names.push(name);
+                names.len() - 1
+            })
+        };
+        let part_of_surface: Vec<usize> = scene.surfaces.iter().map(&mut part_of_surface).collect();
+        let part = |patch: &Patch| part_of_surface[patch.surface.index()];
+        let part_of: Vec<usize> = mesh.patches.iter().map(part).collect();
+        let lumped = form_factors.lumped(&part_of, names.len());
+        let row = |(part, name)| TableRow {
+            name,
+            cell: None,
+            area: lumped.areas[part],
+            facts: lumped.rows[part],
+        };
+        FactorTable {
+            rows: names.into_iter().enumerate().map(row).collect(),
+            entries: Entries::OfParts(lumped),
+        }
+    }
+
+    fn of_patches(scene: &'a Scene, mesh: &Mesh, form_factors: &'a FormFactors) -> FactorTable<'a> {
+        let order = input_order(scene, mesh);
+        let row = |&(patch, cell): &(usize, [u32; 2])| TableRow {
+            name: &scene.surfaces[mesh.patches[patch].surface.index()].name,
+            cell: Some(cell),
+            area: form_factors.areas[patch],
+            facts: form_factors.rows[patch],
+        };
+        FactorTable {
+            rows: order.iter().map(row).collect(),
+            entries: Entries::OfPatches {
+                form_factors,
+                order: order.into_iter().map(|(patch, _)| patch).collect(),
+                total_area: form_factors.areas.iter().sum(),
+            },
+        }
+    }
+
+    /// How many rows there are, and columns.
+    pub fn size(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// `F[i, j]`.
+    pub fn factor(&self, i: usize, j: usize) -> f64 {
+        match &self.entries {
+            Entries::OfPatches {
+                form_factors,
+                order,
+                total_area,
+            } => {
+                let exchange = form_factors.exchange.get(order[i], order[j]);
+                f64::from(exchange) * total_area / self.rows[i].area
+            }
+            Entries::OfParts(lumped) => lumped.factor(i, j),
+        }
+    }
+
+    /// The matrix as NumPy reads it: `float32`, by rows.
+    pub fn write_npy(&self, file: &mut dyn Write) -> io::Result<()> {
+        let size = self.size();
+        file.write_all(&npy_header(size))?;
+        self.for_each_row(|_, row| {
+            row.iter()
+                .try_for_each(|factor| file.write_all(&factor.to_le_bytes()))
+        })
+    }
+
+    /// The matrix as plain numbers, one line per row.
+    pub fn write_matrix(&self, file: &mut dyn Write) -> io::Result<()> {
+        let mut file = csv::Writer::from_writer(file);
+        self.for_each_row(|_, row| Ok(file.write_record(row.iter().map(f32::to_string))?))?;
+        file.flush()
+    }
+
+    /// All entries of at least `least` that are not 0, as `row,column,F`; gives the sum of the
+    /// others in each row.
+    pub fn write_sparse(&self, least: f64, file: &mut dyn Write) -> io::Result<Vec<f64>> {
+        let mut file = csv::Writer::from_writer(file);
+        let mut dropped = vec![0.0; self.size()];
+        file.write_record(["row", "column", "F"])?;
+        self.for_each_row(|i, row| {
+            for (j, &factor) in row.iter().enumerate() {
+                if factor != 0.0 && f64::from(factor) >= least {
+                    let record = [i.to_string(), j.to_string(), factor.to_string()];
+                    file.write_record(record)?;
+                } else {
+                    dropped[i] += f64::from(factor);
+                }
+            }
+            Ok(())
+        })?;
+        file.flush()?;
+        Ok(dropped)
+    }
+
+    /// All entries by the names of their rows, as `from,to,F,error`: bounds of their errors, empty
+    /// where the estimator does not tell.
+    pub fn write_named(&self, file: &mut dyn Write) -> io::Result<()> {
+        let mut file = csv::Writer::from_writer(file);
+        file.write_record(["from", "to", "F", "error"])?;
+        for (i, from) in self.rows.iter().enumerate() {
+            for (j, to) in self.rows.iter().enumerate() {
+                let factor = format!("{:.9e}", self.factor(i, j));
+                file.write_record([from.name, to.name, &factor, &short(self.error(i, j))])?;
+            }
+        }
+        file.flush()
+    }
+
+    /// What the rows are: their areas and what is known of them, one line each. `dropped` are sums
+    /// of entries that were left out of the matrix.
+    pub fn write_rows(&self, dropped: Option<&[f64]>, file: &mut dyn Write) -> io::Result<()> {
+        let mut file = csv::Writer::from_writer(file);
+        let is_cells = self.rows.iter().any(|row| row.cell.is_some());
+        let mut columns = vec!["row", "name"];
+        columns.extend(is_cells.then_some(["ia", "ib"]).into_iter().flatten());
+        columns.extend([
+            "area",
+            "fronts",
+            "backs",
+            "background",
+            "rays_error",
+            "sky",
+            "error",
+        ]);
+        columns.extend(dropped.map(|_| "dropped"));
+        file.write_record(columns)?;
+        for (k, row) in self.rows.iter().enumerate() {
+            let facts = &row.facts;
+            let mut record = vec![k.to_string(), row.name.to_owned()];
+            record.extend(
+                row.cell
+                    .into_iter()
+                    .flatten()
+                    .map(|index| index.to_string()),
+            );
+            let sky = 1.0 - facts.fronts - facts.backs;
+            let RowFacts {
+                fronts,
+                backs,
+                background,
+                rays_error,
+                error,
+            } = *facts;
+            record.push(row.area.to_string());
+            record.extend([fronts, backs, background].map(|share| format!("{share:.9}")));
+            record.extend([short(Some(rays_error)), format!("{sky:.9}"), short(error)]);
+            record.extend(dropped.map(|dropped| short(Some(dropped[k]))));
+            file.write_record(record)?;
+        }
+        file.flush()
+    }
+
+    fn error(&self, i: usize, j: usize) -> Option<f64> {
+        match &self.entries {
+            Entries::OfPatches { .. } => None,
+            Entries::OfParts(lumped) => lumped.error(i, j),
+        }
+    }
+
+    /// Computes rows in parallel and hands them on in order.
+    fn for_each_row(
+        &self,
+        mut take: impl FnMut(usize, &[f32]) -> io::Result<()>,
+    ) -> io::Result<()> {
+        let size = self.size();
+        let entries = |i| (0..size).map(|j| self.factor(i, j) as f32).collect();
+        for first in (0..size).step_by(ROWS_AT_A_TIME) {
+            let some = first..size.min(first + ROWS_AT_A_TIME);
+            let rows: Vec<Vec<f32>> = some.clone().into_par_iter().map(entries).collect();
+            some.zip(&rows).try_for_each(|(i, row)| take(i, row))?;
+        }
+        Ok(())
+    }
+}
+
+/// Three digits, or nothing.
+fn short(number: Option<f64>) -> String {
+    number.map_or(String::new(), |number| format!("{number:.2e}"))
+}
+
+/// The head of a NumPy file, format 1.0: a Python dictionary, padded so that data begin at a
+/// multiple of 64 bytes.
+fn npy_header(size: usize) -> Vec<u8> {
+    const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
+    let dictionary =
+        format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({size}, {size}), }}");
+    let unpadded = MAGIC.len() + 2 + dictionary.len() + 1;
+    let padding = " ".repeat(unpadded.next_multiple_of(64) - unpadded);
+    let text = format!("{dictionary}{padding}\n");
+    let length = u16::try_from(text.len()).expect("a short dictionary");
+    [MAGIC, &length.to_le_bytes(), text.as_bytes()].concat()
+}

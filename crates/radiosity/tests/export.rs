@@ -1,0 +1,169 @@
+//! Form factors as other programs read them.
+
+mod place;
+
+use place::Place;
+use std::collections::BTreeMap;
+use std::fs;
+
+/// A matrix of NumPy's format 1.0, read as its description says.
+fn read_npy(place: &Place, name: &str) -> Vec<Vec<f64>> {
+    let bytes = fs::read(place.path(name)).unwrap();
+    assert_eq!(&bytes[..8], b"\x93NUMPY\x01\x00");
+    let length = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+    let (head, data) = bytes[10..].split_at(length);
+    assert_eq!((10 + length) % 64, 0);
+    let head = std::str::from_utf8(head).unwrap();
+    assert!(head.starts_with("{'descr': '<f4', 'fortran_order': False, 'shape': ("));
+    assert!(head.ends_with('\n'));
+    let shape = head.split(['(', ')']).nth(1).unwrap();
+    let shape: Vec<usize> = shape.split(", ").map(|n| n.parse().unwrap()).collect();
+    let values: Vec<f64> = data
+        .as_chunks::<4>()
+        .0
+        .iter()
+        .map(|bytes| f64::from(f32::from_le_bytes(*bytes)))
+        .collect();
+    assert_eq!(values.len(), shape[0] * shape[1]);
+    values.chunks(shape[1]).map(<[f64]>::to_vec).collect()
+}
+
+/// The lines of a table, by the names of its columns.
+fn read_table(place: &Place, name: &str) -> Vec<BTreeMap<String, String>> {
+    let text = fs::read_to_string(place.path(name)).unwrap();
+    let mut lines = text.lines().map(split);
+    let columns = lines.next().unwrap();
+    lines
+        .map(|line| columns.iter().cloned().zip(line).collect())
+        .collect()
+}
+
+/// The fields of a line; quotes are around whole fields in these tests.
+fn split(line: &str) -> Vec<String> {
+    let line = line.replace("\"lamp, the only one\"", "lamp");
+    line.split(',').map(str::to_owned).collect()
+}
+
+fn number(line: &BTreeMap<String, String>, column: &str) -> f64 {
+    line[column].parse().unwrap()
+}
+
+/// The scene with its lamp and its wing in one group.
+fn grouped() -> Place {
+    let place = Place::new();
+    let group = |text: &str, name: &str| text.replace(name, &format!("{name}\ngroup = \"others\""));
+    let scene = group(place::SCENE, "name = \"lamp, the only one\"");
+    place.write("room.toml", &group(&scene, "name = \"wing\""));
+    place
+}
+
+#[test]
+fn the_matrix_is_that_of_the_rows() {
+    let place = Place::new();
+    let report = place.json("form-factors room.toml --cache c --export f.npy");
+    assert_eq!(report["outputs"]["export"], "f.npy");
+    assert_eq!(report["outputs"]["export_rows"], "f.rows.csv");
+    let factors = read_npy(&place, "f.npy");
+    let rows = read_table(&place, "f.rows.csv");
+    assert_eq!((factors.len(), rows.len()), (17, 17));
+    assert_eq!(
+        (&rows[9]["name"][..], &rows[10]["name"][..]),
+        ("lamp", "wing")
+    );
+    for (i, row) in rows.iter().enumerate() {
+        // Each of the row's numbers is rounded to 24 bits.
+        let sum: f64 = factors[i].iter().sum();
+        assert!((sum - number(row, "fronts")).abs() < 1e-6, "{row:?}");
+        let shares = ["fronts", "backs", "sky"].map(|share| number(row, share));
+        assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-8, "{row:?}");
+        for (j, other) in rows.iter().enumerate() {
+            let [forth, back] = [
+                number(row, "area") * factors[i][j],
+                number(other, "area") * factors[j][i],
+            ];
+            assert!((forth - back).abs() <= 1e-6 * forth, "reciprocity");
+        }
+    }
+    place.succeed("form-factors room.toml --cache c --export f.csv");
+    let text = fs::read_to_string(place.path("f.csv")).unwrap();
+    let same = |line: &str| {
+        line.split(',')
+            .map(|x| x.parse::<f32>().unwrap().into())
+            .collect()
+    };
+    assert_eq!(text.lines().map(same).collect::<Vec<Vec<f64>>>(), factors);
+}
+
+#[test]
+fn parts_are_means_of_their_patches() {
+    let place = grouped();
+    place.succeed("form-factors room.toml --cache c --export f.npy");
+    place.succeed("form-factors room.toml --cache c --export g.csv --by group");
+    place.succeed("form-factors room.toml --cache c --export g.npy --by group");
+    let (factors, rows) = (read_npy(&place, "f.npy"), read_table(&place, "f.rows.csv"));
+    let groups = read_table(&place, "g.rows.csv");
+    let names: Vec<&str> = groups.iter().map(|group| &group["name"][..]).collect();
+    assert_eq!(names, ["floor", "others", "block"]);
+    let group_of = |row: usize| match &rows[row]["name"][..] {
+        "lamp" | "wing" => "others",
+        name => name,
+    };
+    let lines = read_table(&place, "g.csv");
+    let matrix = read_npy(&place, "g.npy");
+    for (k, line) in lines.iter().enumerate() {
+        let members = |name| (0..rows.len()).filter(move |&row| group_of(row) == name);
+        let (mut exchange, mut area) = (0.0, 0.0);
+        for i in members(&line["from"]) {
+            area += number(&rows[i], "area");
+            let factor: f64 = members(&line["to"]).map(|j| factors[i][j]).sum();
+            exchange += number(&rows[i], "area") * factor;
+        }
+        let found = number(line, "F");
+        assert!((found - exchange / area).abs() < 1e-6, "{line:?}");
+        assert!((found - matrix[k / 3][k % 3]).abs() < 1e-7);
+        let of_row = number(&groups[k / 3], "error");
+        assert!(number(line, "error") <= 1.01 * of_row, "{line:?}");
+    }
+    place.succeed("form-factors room.toml --cache c --export s.csv --by surface");
+    assert_eq!(read_table(&place, "s.csv").len(), 16);
+}
+
+#[test]
+fn what_is_left_out_is_told() {
+    let place = Place::new();
+    place.succeed("form-factors room.toml --cache c --export f.npy");
+    place.succeed("form-factors room.toml --cache c --export f.csv --sparse 0.01");
+    let (factors, rows) = (read_npy(&place, "f.npy"), read_table(&place, "f.rows.csv"));
+    let mut kept = vec![0.0; rows.len()];
+    for line in read_table(&place, "f.csv") {
+        let [i, j] = ["row", "column"].map(|index| number(&line, index) as usize);
+        let factor = number(&line, "F");
+        assert!(factor >= 0.01 && factor as f32 == factors[i][j] as f32);
+        kept[i] += factor;
+    }
+    for (row, kept) in rows.iter().zip(kept) {
+        let sum = kept + number(row, "dropped");
+        // Three digits of what was dropped.
+        let rounding = 1e-6 + 0.01 * number(row, "dropped");
+        assert!((sum - number(row, "fronts")).abs() < rounding, "{row:?}");
+    }
+    assert!(rows.iter().any(|row| number(row, "dropped") > 0.0));
+}
+
+#[test]
+fn exports_that_make_no_sense_are_refused() {
+    let place = Place::new();
+    let (code, message) = place.fail("form-factors room.toml --export f.npy --sparse 0.1");
+    assert_eq!(code, 3);
+    assert!(
+        message.contains("--sparse is for patches and .csv"),
+        "{message}"
+    );
+    let (code, message) = place.fail("form-factors room.toml --export f.xls");
+    assert_eq!(code, 2);
+    assert!(message.contains("ends in .npy or .csv"), "{message}");
+    let (code, _) = place.fail("form-factors room.toml --by surface");
+    assert_eq!(code, 2);
+    let (code, _) = place.fail("form-factors room.toml --export missing/f.npy");
+    assert_eq!(code, 1);
+}
