@@ -35,7 +35,7 @@ const PREAMBLE_LEN: usize = 8 + 4 + 8 + 32;
 const LENGTH_LEN: usize = 8;
 
 /// What a file says of itself.
-#[derive(Serialize, Deserialize)]
+#[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct Header {
     pub(crate) stage: String,
     pub(crate) key: [u8; 32],

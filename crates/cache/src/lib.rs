@@ -8,6 +8,7 @@
 //!
 //! This crate is the only one that names bincode. It knows nothing of physics.
 
+mod artifact;
 mod cache_file;
 mod digests;
 mod draft;
@@ -21,10 +22,11 @@ mod store;
 #[cfg(test)]
 mod tests;
 
+pub use artifact::{Artifact, Opened, open};
 pub use draft::Draft;
 pub use format::Miss;
 pub use key::Key;
 pub use lock::Lock;
 pub use mapping::MappedValues;
 pub use replace::{replace_file, replace_file_by};
-pub use store::{Artifact, CacheError, Entry, Id, Store};
+pub use store::{CacheError, Entry, Id, Store};

@@ -1,11 +1,11 @@
 //! The cache folder.
 
+use crate::artifact::{Artifact, Opened, open};
 use crate::cache_file::{CacheFile, EXTENSION, lock_of};
-use crate::digests::{Digest, Digests};
+use crate::digests::Digests;
 use crate::format::{self, Miss};
 use crate::key::Key;
 use crate::lock::Lock;
-use crate::mapping::{self, MappedValues};
 use crate::replace::replace_file;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -27,15 +27,6 @@ pub struct Id<'a> {
     pub stage: &'a str,
     /// The identity.
     pub key: Key,
-}
-
-/// An artifact read from a file.
-#[derive(Debug)]
-pub struct Artifact<F> {
-    /// The small typed part.
-    pub facts: F,
-    values: MappedValues,
-    block_digests: Vec<Digest>,
 }
 
 /// A file in the cache.
@@ -62,24 +53,6 @@ pub struct CacheError {
     /// What went wrong.
     #[source]
     pub error: std::io::Error,
-}
-
-impl<F> Artifact<F> {
-    /// The big array, its digests checked.
-    pub fn into_values(self) -> Result<(F, MappedValues), Miss> {
-        let digests = Digests::of(self.values.as_ref()).all();
-        let is_good = |(found, expected)| found == expected;
-        let good = digests
-            .iter()
-            .zip(&self.block_digests)
-            .take_while(|&pair| is_good(pair));
-        match good.count() {
-            all if all == digests.len() && all == self.block_digests.len() => {
-                Ok((self.facts, self.values))
-            }
-            block => Err(Miss::Block { block }),
-        }
-    }
 }
 
 impl Store {
@@ -120,16 +93,11 @@ impl Store {
             }
             Err(error) => return Err(error.into()),
         };
-        let map = mapping::map(&file)?;
-        let (header, values) = format::parse(&map)?;
-        if header.key != id.key.0 || header.stage != id.stage {
+        let opened = Opened::of(&file)?;
+        if opened.key != id.key || opened.stage != id.stage {
             return Err(Miss::OtherKey);
         }
-        Ok(Artifact {
-            facts: header.facts()?,
-            values: MappedValues::new(map, values),
-            block_digests: header.block_digests,
-        })
+        opened.into_artifact()
     }
 
     /// Writes an artifact. Whoever looks meanwhile, or after an interruption, finds the old
@@ -235,7 +203,7 @@ impl Entry {
             stage: if file.is_draft() {
                 Err(Miss::Unfinished)
             } else {
-                stage_of(&file.path)
+                open(&file.path).map(|opened| opened.stage)
             },
             path: file.path,
         }
@@ -251,9 +219,4 @@ impl CacheError {
             error,
         }
     }
-}
-
-fn stage_of(path: &Path) -> Result<String, Miss> {
-    let map = mapping::map(&File::open(path)?)?;
-    format::parse(&map).map(|(header, _)| header.stage)
 }

@@ -7,6 +7,7 @@ use crate::lines::{Lines, MOST_BLOCKERS};
 use crate::obstacles::{Between, Obstacles};
 use crate::random::Stream;
 use crate::segments::{Blocked, Segments};
+use crate::tally::Sight;
 use crate::target::Target;
 use crate::unoccluded;
 use crate::visible::{Share, share};
@@ -28,11 +29,12 @@ pub(crate) struct Accurate<'a> {
     tolerance: f64,
 }
 
-/// `S_ij` and its standard error.
-#[derive(Clone, Copy, Debug, Default)]
+/// `S_ij` and its standard error, in scene units.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Exchange {
     pub(crate) value: f64,
     pub(crate) error: f64,
+    pub(crate) sight: Sight,
 }
 
 impl<'a> Accurate<'a> {
@@ -75,6 +77,7 @@ impl<'a> Accurate<'a> {
         Exchange {
             value: share.value * clear,
             error: share.error * clear + unoccluded.error,
+            sight: Sight::Partial,
         }
     }
 

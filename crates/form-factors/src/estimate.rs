@@ -6,18 +6,18 @@
 //! is the same for any number of threads.
 
 use crate::accurate::Accurate;
-use crate::fixed::FixedSums;
 use crate::monte_carlo::{MonteCarlo, Strata};
 use crate::obstacles::Obstacles;
+use crate::pairs::Told;
 use crate::part::Part;
 use crate::regular::{Regular, Scratch};
 use crate::surroundings::{Surroundings, look_around};
+use crate::tally::{Classes, Tally};
 use crate::tiles::{Tile, Tiling};
 use crate::{Estimator, FormFactors};
 use radiosity_geometry::{Mesh, Patch};
 use radiosity_matrix::{SymmetricMatrix, packed_len, rows_mut};
 use rayon::prelude::*;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::ops::Range;
 
 /// Estimates all form factors of a mesh. `progress` is told how many further pairs are done,
@@ -37,9 +37,6 @@ pub struct Estimation<'a> {
     pub(crate) scale: f64,
 }
 
-/// The errors of rows as far as they are estimated.
-pub struct RowErrors(FixedSums);
-
 /// The estimator with what it prepares.
 pub(crate) enum Method<'a> {
     Regular(Regular),
@@ -52,26 +49,6 @@ pub(crate) enum Method<'a> {
 pub(crate) struct Room {
     pub(crate) regular: Scratch,
     pub(crate) strata: Strata,
-}
-
-impl RowErrors {
-    /// Nothing is estimated yet.
-    pub fn new(rows: usize) -> RowErrors {
-        RowErrors(FixedSums::new(rows))
-    }
-}
-
-impl Serialize for RowErrors {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.0.units().serialize(serializer)
-    }
-}
-
-impl<'de> Deserialize<'de> for RowErrors {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<RowErrors, D::Error> {
-        let units = Vec::deserialize(deserializer)?;
-        Ok(RowErrors(FixedSums::from_units(units)))
-    }
 }
 
 impl<'a> Estimation<'a> {
@@ -117,7 +94,7 @@ impl<'a> Estimation<'a> {
             let group = &groups[spread(0.569_840_290_998_053, groups.len())];
             let mut sum = 0.0;
             let mut room = Room::default();
-            let add = |_, _, value: f32, _| sum += value;
+            let add = |_, _, told: Told| sum += told.value;
             self.against(tile, group, &mut room, &mut { add });
             std::hint::black_box(sum);
             let patches = |tile: &Tile| tile.patches.len() as u64;
@@ -138,10 +115,10 @@ impl<'a> Estimation<'a> {
     pub fn run(&self, progress: &(dyn Fn(u64) + Sync)) -> FormFactors {
         let size = self.mesh.patches.len();
         let mut values = vec![0.0; packed_len(size)];
-        let errors = RowErrors::new(size);
-        self.fill_rows(0..size, &mut values, &errors, progress);
+        let tally = Tally::new(size);
+        self.fill_rows(0..size, &mut values, &tally, progress);
         let exchange = SymmetricMatrix::new(size, values).expect("one value per pair was made");
-        self.complete(exchange, &errors)
+        self.complete(exchange, &tally)
     }
 
     /// The next rows after the first so many, if they can be estimated by themselves: the fewest
@@ -162,14 +139,14 @@ impl<'a> Estimation<'a> {
         Some(first..last)
     }
 
-    /// Fills the zeroed values of rows that [`Estimation::next_rows`] gave, and adds the errors of
-    /// their factors to those of all rows. The result depends neither on the number of threads
+    /// Fills the zeroed values of rows that [`Estimation::next_rows`] gave, and adds to
+    /// the tally. The result depends neither on the number of threads
     /// nor on how many rows are filled at a time.
     pub fn fill_rows(
         &self,
         rows: Range<usize>,
         values: &mut [f32],
-        errors: &RowErrors,
+        tally: &Tally,
         progress: &(dyn Fn(u64) + Sync),
     ) {
         let strips = self.tiling.strips.iter();
@@ -186,19 +163,19 @@ impl<'a> Estimation<'a> {
         tiles
             .into_par_iter()
             .for_each_init(Room::default, |room, (tile, mut rows)| {
-                self.fill(tile, &mut rows, room, errors);
+                self.fill(tile, &mut rows, room, tally);
                 progress(rows.iter().map(|row| row.len() as u64).sum());
             });
     }
 
     /// What all rows together make, once all are filled.
-    pub fn complete(&self, exchange: SymmetricMatrix, errors: &RowErrors) -> FormFactors {
+    pub fn complete(&self, exchange: SymmetricMatrix, tally: &Tally) -> FormFactors {
         let areas = self.mesh.patches.iter().map(|patch| patch.area).collect();
         let look = |patch| look_around(self.mesh, &self.obstacles, patch);
         let patches = 0..self.mesh.patches.len();
         let surroundings: Vec<Surroundings> = patches.into_par_iter().map(look).collect();
-        let errors = self.tells_errors().then(|| errors.0.sums());
-        FormFactors::new(areas, exchange, errors.as_deref(), &surroundings)
+        let errors = self.tells_errors().then(|| tally.sums());
+        FormFactors::new(areas, exchange, errors, &surroundings)
     }
 
     /// Whether the estimator knows the errors of its rows.
@@ -209,24 +186,29 @@ impl<'a> Estimation<'a> {
         }
     }
 
-    /// Fills the zeroed rows of a tile, and adds the errors of the factors to those of both rows.
-    fn fill(&self, tile: usize, rows: &mut [&mut [f32]], room: &mut Room, errors: &RowErrors) {
+    /// Fills the zeroed rows of a tile, and adds to the tally.
+    fn fill(&self, tile: usize, rows: &mut [&mut [f32]], room: &mut Room, tally: &Tally) {
         let patches = &self.tiling.tiles[tile].patches;
         let area = |patch: usize| self.mesh.patches[patch].area;
-        let mut tell = |lane: usize, j: usize, value: f32, error: f64| {
+        let mut classes = Classes::default();
+        let mut tell = |lane: usize, j: usize, told: Told| {
             // Only small faces share their tile with patches that come after.
-            if let Some(entry) = rows[lane].get_mut(j) {
-                *entry = value;
-                if error > 0.0 {
-                    let i = patches[lane];
-                    errors.0.add(i, error / area(i));
-                    errors.0.add(j, error / area(j));
-                }
+            let Some(entry) = rows[lane].get_mut(j) else {
+                return;
+            };
+            *entry = told.value;
+            if let Some((sight, error)) = told.estimate {
+                let i = patches[lane];
+                tally.add_error(i, error / area(i));
+                tally.add_error(j, error / area(j));
+                // In a mean over rows a pair counts twice.
+                classes.add(sight, 2.0 * error * self.scale);
             }
         };
         let groups = self.tiling.groups.iter();
         for group in groups.take_while(|group| group.tiles.start <= tile) {
             self.against(tile, group, room, &mut tell);
         }
+        tally.add_classes(&classes);
     }
 }

@@ -13,6 +13,10 @@ impl FixedSums {
         FixedSums((0..count).map(|_| AtomicU64::new(0)).collect())
     }
 
+    pub(crate) fn count(&self) -> usize {
+        self.0.len()
+    }
+
     pub(crate) fn add(&self, index: usize, number: f64) {
         if number > 0.0 {
             self.0[index].fetch_add((number * UNITS).ceil() as u64, Ordering::Relaxed);

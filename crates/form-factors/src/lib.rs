@@ -40,6 +40,7 @@ mod samples;
 mod segments;
 mod shade;
 mod surroundings;
+mod tally;
 mod target;
 mod tiles;
 mod transfer;
@@ -50,8 +51,9 @@ use radiosity_matrix::SymmetricMatrix;
 use serde::{Deserialize, Serialize};
 use surroundings::Surroundings;
 
-pub use estimate::{Estimation, RowErrors, estimate};
+pub use estimate::{Estimation, estimate};
 pub use lumped::LumpedFactors;
+pub use tally::{ClassFacts, Classes, Tally};
 
 /// Raise it whenever the same mesh would give other form factors, because of a change here, in
 /// `geometry`, or in the random numbers: it is part of their key.
@@ -135,15 +137,17 @@ pub struct FormFactors {
     pub exchange: SymmetricMatrix,
     /// Per patch.
     pub rows: Vec<RowFacts>,
+    /// Of pairs, if the estimator tells.
+    pub classes: Option<Classes>,
 }
 
 impl FormFactors {
     /// Completes areas and matrix by the facts that follow from them. `errors` are those of the
-    /// rows.
+    /// rows and of classes of pairs.
     fn new(
         areas: Vec<f64>,
         exchange: SymmetricMatrix,
-        errors: Option<&[f64]>,
+        errors: Option<(Vec<f64>, Classes)>,
         surroundings: &[Surroundings],
     ) -> FormFactors {
         let total: f64 = areas.iter().sum();
@@ -153,13 +157,13 @@ impl FormFactors {
             backs: surroundings[i].backs,
             background: surroundings[i].background,
             rays_error: surroundings[i].error,
-            error: errors.map(|errors| errors[i]),
+            error: errors.as_ref().map(|(of_rows, _)| of_rows[i]),
         };
-        let rows = (0..areas.len()).map(row).collect();
         FormFactors {
+            rows: (0..areas.len()).map(row).collect(),
             areas,
             exchange,
-            rows,
+            classes: errors.map(|(_, classes)| classes),
         }
     }
 

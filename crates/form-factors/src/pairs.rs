@@ -1,25 +1,40 @@
 //! The walk from a tile and a group of tiles down to single pairs, and what each estimator makes of
 //! them.
 
-use crate::accurate::Exchange;
 use crate::estimate::{Estimation, Method, Room};
 use crate::obstacles::Between;
 use crate::part::Part;
+use crate::tally::Sight;
 use crate::tiles::{Group, Tile};
 
 /// So many faces are listed between parts that will be looked at more closely, and at last.
 const FEW: usize = 64;
 const MANY: usize = 1024;
 
+/// What is found out about a pair.
+pub(crate) struct Told {
+    /// `S_ij`, in units of the total area.
+    pub(crate) value: f32,
+    /// How much they see of each other, and the error of `S_ij` in scene units, if it is known.
+    pub(crate) estimate: Option<(Sight, f64)>,
+}
+
+impl Told {
+    fn plain(value: f32) -> Told {
+        let estimate = None;
+        Told { value, estimate }
+    }
+}
+
 impl Estimation<'_> {
-    /// Estimates the exchange of the patches of a tile with those of a group; tells those that may
-    /// not be zero: lane, index, the exchange in units of the total area, its error in scene units.
+    /// Estimates the exchange of the patches of a tile with those of a group; tells of those that
+    /// may not be zero: lane, index, and what is found out.
     pub(crate) fn against(
         &self,
         tile: usize,
         group: &Group,
         room: &mut Room,
-        tell: &mut impl FnMut(usize, usize, f32, f64),
+        tell: &mut impl FnMut(usize, usize, Told),
     ) {
         let tiles = &self.tiling.tiles;
         let part = &tiles[tile].part;
@@ -68,7 +83,7 @@ impl Estimation<'_> {
         tile: &Tile,
         between: &Between,
         room: &mut Room,
-        tell: &mut impl FnMut(usize, usize, f32, f64),
+        tell: &mut impl FnMut(usize, usize, Told),
     ) {
         let patches = &self.mesh.patches;
         let wall = |patch: usize| self.obstacles.wall(&patches[patch]);
@@ -77,7 +92,7 @@ impl Estimation<'_> {
         match &self.method {
             Method::Regular(regular) => {
                 let values = regular.exchange(lane, between, &self.obstacles, &mut room.regular);
-                others.for_each(|(k, j)| tell(lane, j, values[k], 0.0));
+                others.for_each(|(k, j)| tell(lane, j, Told::plain(values[k])));
             }
             Method::MonteCarlo(monte_carlo) => {
                 for (_, j) in others {
@@ -85,7 +100,7 @@ impl Estimation<'_> {
                     let value = monte_carlo.estimate(ends, &mut room.strata, |p, q| {
                         !between.cuts(&self.obstacles.occluders, (wall(i), p), (wall(j), q))
                     });
-                    tell(lane, j, (value * self.scale) as f32, 0.0);
+                    tell(lane, j, Told::plain((value * self.scale) as f32));
                 }
             }
             Method::Accurate(accurate) => {
@@ -93,8 +108,12 @@ impl Estimation<'_> {
                     let parts = [&self.parts[i], &self.parts[j]];
                     if let Some(between) = self.view(between, parts, MANY) {
                         let exchange = accurate.exchange([i, j], &between, &self.obstacles);
-                        let Exchange { value, error } = exchange;
-                        tell(lane, j, (value * self.scale) as f32, error);
+                        let sees = exchange.value > 0.0 || exchange.error > 0.0;
+                        let told = Told {
+                            value: (exchange.value * self.scale) as f32,
+                            estimate: sees.then_some((exchange.sight, exchange.error)),
+                        };
+                        tell(lane, j, told);
                     }
                 }
             }

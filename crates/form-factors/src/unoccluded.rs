@@ -4,6 +4,7 @@ use crate::accurate::Exchange;
 use crate::contour;
 use crate::element::{Element, RULES};
 use crate::exchange::all_pairs;
+use crate::tally::Sight;
 use std::f64::consts::PI;
 
 /// `S_ij` of two patches, if nothing stood between them, to an error of about `error` times what it
@@ -15,22 +16,25 @@ pub(crate) fn exchange(i: &Element, j: &Element, error: f64, tolerance: f64) -> 
     if let Some(rule) = rule(i, j, error).filter(|_| whole) {
         let [of_i, of_j] = [i, j].map(|element| (&element.rules[rule][..], element.normal));
         let squarely = i.area() * j.area() / (PI * i.centroid.distance_squared(j.centroid));
-        return Exchange {
-            value: all_pairs(of_i, of_j, |_, _| true),
-            error: error * squarely,
-        };
+        return clear(all_pairs(of_i, of_j, |_, _| true), error * squarely);
     }
     let parts = (j.clip(&i.corners, tolerance), i.clip(&j.corners, tolerance));
     let (Some(part_i), Some(part_j)) = parts else {
-        return Exchange::default();
+        return clear(0.0, 0.0);
     };
     let value = contour::exchange(&part_i, &part_j, tolerance);
     debug_assert!(value.is_finite());
     // Parts that barely see each other may come out below zero, by rounding.
     let value = value.max(0.0);
+    clear(value, CONTOUR_ERROR * value)
+}
+
+fn clear(value: f64, error: f64) -> Exchange {
+    let sight = Sight::Clear;
     Exchange {
         value,
-        error: CONTOUR_ERROR * value,
+        error,
+        sight,
     }
 }
 

@@ -1,6 +1,6 @@
 //! Rows estimated a few at a time are those estimated at once.
 
-use radiosity_form_factors::{Estimation, Estimator, FormFactors, RowErrors};
+use radiosity_form_factors::{Estimation, Estimator, FormFactors, Tally};
 use radiosity_geometry::{Mesh, subdivide};
 use radiosity_matrix::{SymmetricMatrix, packed_len, packed_row};
 use radiosity_scene::load;
@@ -14,17 +14,17 @@ fn mesh() -> Mesh {
 
 fn in_pieces(estimation: &Estimation<'_>, size: usize, pairs: u64) -> (FormFactors, usize) {
     let mut values = vec![0.0; packed_len(size)];
-    let errors = RowErrors::new(size);
+    let tally = Tally::new(size);
     let (mut done, mut pieces) = (0, 0);
     while let Some(rows) = estimation.next_rows(done, pairs) {
         done = rows.end;
         pieces += 1;
         let range = packed_row(rows.start).start..packed_len(rows.end);
-        estimation.fill_rows(rows, &mut values[range], &errors, &|_| ());
+        estimation.fill_rows(rows, &mut values[range], &tally, &|_| ());
     }
     assert_eq!(done, size);
     let exchange = SymmetricMatrix::new(size, values).unwrap();
-    (estimation.complete(exchange, &errors), pieces)
+    (estimation.complete(exchange, &tally), pieces)
 }
 
 #[test]
@@ -48,6 +48,7 @@ fn pieces_make_the_whole() {
             assert!(pieces >= least, "{pieces} pieces");
             assert!(made.exchange.values() == whole.exchange.values());
             assert_eq!(made.rows, whole.rows);
+            assert_eq!(made.classes, whole.classes);
         }
     }
 }

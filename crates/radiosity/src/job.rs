@@ -2,11 +2,12 @@
 
 use crate::artifact::{Sources, usable};
 use crate::error::Error;
+use crate::facts::FactorFacts;
 use crate::observer::{Observer, Stage};
 use crate::prediction::prediction;
 use crate::resources::Needs;
 use radiosity_cache::{CacheError, Draft, Id, Store};
-use radiosity_form_factors::{Estimation, Estimator, FormFactors, RowErrors, RowFacts};
+use radiosity_form_factors::{Estimation, Estimator, FormFactors, Tally};
 use radiosity_geometry::Mesh;
 use radiosity_matrix::{SymmetricMatrix, packed_len};
 use std::ops::Range;
@@ -28,7 +29,7 @@ const MOST_PAIRS: u64 = 1 << 24;
 /// Rows that are written up to here.
 struct Progress {
     draft: Draft,
-    errors: RowErrors,
+    tally: Tally,
     rows: usize,
     /// How many pairs the last checkpoint has.
     saved: u64,
@@ -57,7 +58,7 @@ impl Job<'_> {
         let needs = self.needs();
         needs.check_memory()?;
         let estimation = Estimation::new(self.mesh, self.estimator);
-        let blank = self.blank_facts(&estimation);
+        let blank = FactorFacts::blank(self.mesh, self.estimator, estimation.tells_errors());
         let resumed = match sources {
             Sources::Cached => self.resume(store, id, &blank, &estimation),
             Sources::Computed => None,
@@ -70,7 +71,7 @@ impl Job<'_> {
                 let draft = Draft::begin(store, id, &blank, needs.pairs);
                 usable(draft, self.observer, id).map(|draft| Progress {
                     draft,
-                    errors: RowErrors::new(self.mesh.patches.len()),
+                    tally: Tally::new(self.mesh.patches.len()),
                     rows: 0,
                     saved: 0,
                 })
@@ -84,7 +85,7 @@ impl Job<'_> {
         self.observer.end();
         let saved = progress.saved;
         written
-            .and_then(|()| progress.finish(&estimation))
+            .and_then(|()| self.finish(progress, &estimation))
             .map(|made| (made, true))
             .map_err(|error| interrupted(&error, saved as f64 / needs.pairs as f64))
     }
@@ -109,38 +110,41 @@ impl Job<'_> {
         self.observer.advance(done);
     }
 
-    /// Facts that take as much room as those that are not known yet.
-    fn blank_facts(&self, estimation: &Estimation<'_>) -> Vec<RowFacts> {
-        let row = RowFacts {
-            fronts: 0.0,
-            backs: 0.0,
-            background: 0.0,
-            rays_error: 0.0,
-            error: estimation.tells_errors().then_some(0.0),
-        };
-        vec![row; self.mesh.patches.len()]
-    }
-
     /// What an interrupted run has left, if it can be used.
     fn resume(
         &self,
         store: &Store,
         id: &Id<'_>,
-        blank: &[RowFacts],
+        blank: &FactorFacts,
         estimation: &Estimation<'_>,
     ) -> Option<Progress> {
         let size = self.mesh.patches.len();
         let count = packed_len(size) as u64;
-        let (draft, (rows, errors)) = Draft::resume::<(u64, RowErrors)>(store, id, &blank, count)?;
+        let (draft, (rows, tally)) = Draft::resume::<(u64, Tally)>(store, id, blank, count)?;
         let rows = rows as usize;
         let is_whole = rows == size || estimation.next_rows(rows, 0).is_some();
         let fits = draft.written() == packed_len(rows) as u64;
         (fits && is_whole).then_some(Progress {
             saved: draft.written(),
             draft,
-            errors,
+            tally,
             rows,
         })
+    }
+
+    /// All rows are written: maps them, and adds what they make together.
+    fn finish(
+        &self,
+        progress: Progress,
+        estimation: &Estimation<'_>,
+    ) -> Result<FormFactors, CacheError> {
+        let Progress {
+            draft, tally, rows, ..
+        } = progress;
+        let exchange = SymmetricMatrix::new(rows, draft.values()?).expect("all rows are written");
+        let made = estimation.complete(exchange, &tally);
+        draft.finish(&FactorFacts::new(self.mesh, self.estimator, &made))?;
+        Ok(made)
     }
 }
 
@@ -180,25 +184,16 @@ impl Progress {
         values.clear();
         values.resize(packed_len(rows.end) - packed_len(rows.start), 0.0);
         let advance = |pairs| observer.advance(pairs);
-        estimation.fill_rows(rows.clone(), values, &self.errors, &advance);
+        estimation.fill_rows(rows.clone(), values, &self.tally, &advance);
         self.draft.append(values)?;
         self.rows = rows.end;
         Ok(())
     }
 
     fn checkpoint(&mut self) -> Result<(), CacheError> {
-        self.draft.checkpoint(&(self.rows as u64, &self.errors))?;
+        self.draft.checkpoint(&(self.rows as u64, &self.tally))?;
         self.saved = self.draft.written();
         Ok(())
-    }
-
-    /// All rows are written: maps them, and adds what they make together.
-    fn finish(self, estimation: &Estimation<'_>) -> Result<FormFactors, CacheError> {
-        let values = self.draft.values()?;
-        let exchange = SymmetricMatrix::new(self.rows, values).expect("all rows are written");
-        let made = estimation.complete(exchange, &self.errors);
-        self.draft.finish(&made.rows)?;
-        Ok(made)
     }
 }
 

@@ -2,18 +2,19 @@
 
 use crate::artifact::{How, Origin, Recipe, Sources, obtain, usable};
 use crate::error::Error;
+use crate::facts::{self, FORM_FACTORS, FactorFacts, SOLUTION, SolutionFacts};
 use crate::job::Job;
 use crate::observer::{Observer, Stage};
 use crate::resources::check_image;
 use crate::rows::RowSummary;
 use crate::settings;
 use radiosity_cache::{Artifact, Id, Key, Miss, Store};
-use radiosity_form_factors::{self as form_factors, FormFactors, RowFacts};
+use radiosity_form_factors::{self as form_factors, FormFactors};
 use radiosity_geometry::{self as geometry, Mesh};
 use radiosity_matrix::SymmetricMatrix;
 use radiosity_renderer::{self as renderer, Fields, Pictures};
 use radiosity_scene::{Mode, Scene};
-use radiosity_solver::{self as solver, Convergence, Solution, System};
+use radiosity_solver::{self as solver, Solution, System};
 use std::time::Instant;
 
 /// One scene on its way through the stages.
@@ -51,17 +52,8 @@ pub struct Solved {
     pub form_factors: Origin,
 }
 
-/// What is stored beside the radiosities.
-type SolutionFacts = (Convergence, RowSummary);
-
-const FORM_FACTORS: &str = "form-factors";
-const SOLUTION: &str = "solution";
 /// Into how many steps the solver's progress is divided.
 const SOLVER_STEPS: u64 = 100;
-/// Raise it whenever the layout of what is stored beside an array changes ([`RowFacts`],
-/// [`Convergence`], [`RowSummary`]): it is part of every key.
-const FACTS_VERSION: u32 = 3;
-
 impl<'a> Pipeline<'a> {
     /// Stage 1: cuts the scene into patches.
     pub fn new(
@@ -76,7 +68,7 @@ impl<'a> Pipeline<'a> {
             let face = mesh.face_of(patch);
             scene.material(face.surface, face.input_index)
         };
-        let inputs = (FACTS_VERSION, &mesh, settings::estimator(scene));
+        let inputs = (facts::VERSION, &mesh, settings::estimator(scene));
         Ok(Pipeline {
             key: Key::of(FORM_FACTORS, form_factors::VERSION, &inputs),
             scene,
@@ -101,8 +93,8 @@ impl<'a> Pipeline<'a> {
         let id = self.form_factors_id();
         let recipe = Recipe {
             read: |store: &Store| {
-                let (rows, values) = store.read::<Vec<RowFacts>>(&id)?.into_values()?;
-                self.stored_form_factors(rows, values).ok_or(Miss::Header)
+                let (facts, values) = store.read::<FactorFacts>(&id)?.into_values()?;
+                self.stored_form_factors(facts, values).ok_or(Miss::Header)
             },
             make: |store: Option<&Store>| {
                 let job = Job {
@@ -119,7 +111,7 @@ impl<'a> Pipeline<'a> {
         let (form_factors, mut origin) = obtain(self.cache, self.observer, &id, sources, recipe)?;
         origin.bytes = 4 * form_factors.exchange.values().len() as u64;
         origin.seconds = start.elapsed().as_secs_f64();
-        let rows = RowSummary::of(&form_factors.rows);
+        let rows = RowSummary::of(&form_factors);
         Ok(FormFactorsMade {
             form_factors,
             rows,
@@ -228,7 +220,7 @@ impl<'a> Pipeline<'a> {
 
     fn solution_id(&self) -> Id<'_> {
         let inputs = (
-            FACTS_VERSION,
+            facts::VERSION,
             self.key.bytes(),
             &self.emission,
             &self.reflectance,
@@ -243,16 +235,17 @@ impl<'a> Pipeline<'a> {
 
     fn stored_form_factors(
         &self,
-        rows: Vec<RowFacts>,
+        facts: FactorFacts,
         values: impl AsRef<[f32]> + Send + Sync + 'static,
     ) -> Option<FormFactors> {
         let patches = self.mesh.patches.len();
         let exchange = SymmetricMatrix::new(patches, values).ok()?;
         let areas = self.mesh.patches.iter().map(|patch| patch.area).collect();
-        (rows.len() == patches).then_some(FormFactors {
+        (facts.rows.len() == patches).then_some(FormFactors {
             areas,
             exchange,
-            rows,
+            rows: facts.rows,
+            classes: facts.classes,
         })
     }
 
@@ -281,7 +274,7 @@ impl<'a> Pipeline<'a> {
     /// What to say of form factors that nobody asked for.
     fn untouched_form_factors(&self) -> Origin {
         let id = self.form_factors_id();
-        let is_there = |store: &&Store| store.read::<Vec<RowFacts>>(&id).is_ok();
+        let is_there = |store: &&Store| store.read::<FactorFacts>(&id).is_ok();
         let file = self.cache.filter(is_there).map(|store| store.path(&id));
         Origin {
             how: if file.is_some() {

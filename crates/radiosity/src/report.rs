@@ -3,11 +3,12 @@
 use crate::artifact::{How, Origin};
 use crate::cli::terminal::{Terminal, say};
 use crate::error::Error;
+use crate::lines::{class_line, error_line, indented, row_line, scene_line};
 use crate::pipeline::Pipeline;
-use crate::resources::{Needs, bytes, grouped};
+use crate::resources::{bytes, grouped};
 use crate::rows::RowSummary;
-use crate::settings::estimator;
-use radiosity_geometry::{Mesh, count_patches};
+use radiosity_form_factors::Classes;
+use radiosity_geometry::Mesh;
 use radiosity_scene::Scene;
 use radiosity_solver::{Energy, Solution};
 use serde::Serialize;
@@ -63,6 +64,10 @@ struct FormFactorReport {
     /// The largest of them.
     #[serde(skip_serializing_if = "Option::is_none")]
     row_error_max: Option<f64>,
+    /// Pairs by how much they see of each other, and what each class adds to the mean error of
+    /// rows, weighted by area.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    classes: Option<Classes>,
 }
 
 #[derive(Debug, Serialize)]
@@ -116,14 +121,14 @@ impl<'a> Report<'a> {
         pipeline: &Pipeline<'_>,
     ) {
         self.stage_line("form factors", origin);
-        self.terminal.line(&indented(&format!(
-            "rows sum to {:.4} on average; backs are {:.4} of what patches see, nothing {:.4}",
-            rows.mean, rows.backs, rows.background
-        )));
-        if let Some((mean, worst)) = rows.estimated_error {
-            self.terminal.line(&indented(&format!(
-                "the errors of a row sum to an estimated {mean:.1e} on average, {worst:.1e} at worst"
-            )));
+        self.terminal
+            .line(&indented(&format!("rows {}", row_line(rows))));
+        if let Some(line) = error_line(rows) {
+            self.terminal.line(&indented(&line));
+        }
+        if let Some(classes) = &rows.classes {
+            let patches = pipeline.mesh().patches.len();
+            self.terminal.line(&indented(&class_line(classes, patches)));
         }
         if rows.excessive > 0 {
             let patches = pipeline.mesh().patches.len() as u64;
@@ -146,6 +151,7 @@ impl<'a> Report<'a> {
             row_sum_max_error: rows.max_error,
             row_error_mean: rows.estimated_error.map(|(mean, _)| mean),
             row_error_max: rows.estimated_error.map(|(_, worst)| worst),
+            classes: rows.classes,
         });
     }
 
@@ -227,50 +233,4 @@ impl<'a> Report<'a> {
         let line = format!("{stage:<14}{how:<36}{seconds:>9}{size:>9}  {file}");
         self.terminal.line(line.trim_end());
     }
-}
-
-/// What `check` says.
-pub(crate) fn check_lines(scene: &Scene, needs: &Needs) -> Vec<String> {
-    let camera = if scene.camera.is_some() {
-        ""
-    } else {
-        " (no camera: it cannot be rendered)"
-    };
-    let mut lines = vec![
-        format!("{}{camera}", scene_line(scene, needs.patches)),
-        format!(
-            "{:<14}{} pairs: {} of memory, {} of disk",
-            "form factors",
-            grouped(needs.pairs),
-            bytes(needs.memory),
-            bytes(needs.disk),
-        ),
-    ];
-    if scene.materials.iter().all(|m| m.emission == [0.0; 3]) {
-        lines.push(indented(
-            "warning: nothing emits light; pictures will be black",
-        ));
-    }
-    lines
-}
-
-/// What computing the scene would take.
-pub(crate) fn needs_of(scene: &Scene) -> Result<Needs, Error> {
-    let patches = count_patches(&scene.geometry, scene.divisions)
-        .map_err(|error| Error::of_mesh(scene, &error))?;
-    Ok(Needs::of(patches, estimator(scene)))
-}
-
-fn scene_line(scene: &Scene, patches: usize) -> String {
-    format!(
-        "{:<14}{}: {} surfaces, {} patches",
-        "scene",
-        scene.name,
-        grouped(scene.surfaces.len() as u64),
-        grouped(patches as u64),
-    )
-}
-
-fn indented(text: &str) -> String {
-    format!("{:<14}{text}", "")
 }

@@ -1,6 +1,6 @@
 //! Statistics of the rows of form factors.
 
-use radiosity_form_factors::RowFacts;
+use radiosity_form_factors::{Classes, FormFactors, RowFacts};
 use serde::{Deserialize, Serialize};
 
 /// Statistics of the row sums.
@@ -21,13 +21,20 @@ pub struct RowSummary {
     pub largest: (f64, u64),
     /// The mean and the largest of the rows' estimated errors, if the estimator tells.
     pub estimated_error: Option<(f64, f64)>,
+    /// Pairs by how much they see of each other, and their parts of that error, if the
+    /// estimator tells.
+    pub classes: Option<Classes>,
 }
 
 /// Row sums above this are worth a warning.
 const EXCESSIVE: f64 = 1.001;
 
 impl RowSummary {
-    pub(crate) fn of(rows: &[RowFacts]) -> RowSummary {
+    pub(crate) fn of(form_factors: &FormFactors) -> RowSummary {
+        RowSummary::new(&form_factors.rows, form_factors.classes)
+    }
+
+    pub(crate) fn new(rows: &[RowFacts], classes: Option<Classes>) -> RowSummary {
         let sums = || rows.iter().map(|row| row.fronts);
         let mean =
             |share: fn(&RowFacts) -> f64| rows.iter().map(share).sum::<f64>() / rows.len() as f64;
@@ -46,6 +53,7 @@ impl RowSummary {
             excessive: sums().filter(|&sum| sum > EXCESSIVE).count() as u64,
             largest,
             estimated_error: estimated_error(rows),
+            classes,
         }
     }
 }

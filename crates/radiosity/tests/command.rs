@@ -33,6 +33,7 @@ fn render_reports_one_json_object() {
         keys(&stages["form_factors"]),
         [
             "cached",
+            "classes",
             "reason",
             "row_background_mean",
             "row_backs_mean",

@@ -1,6 +1,7 @@
 //! Flags override what the scene says.
 
-use super::args::{DisplayArgs, EstimateArgs, FilterArg, ImageArgs, ModeArg, SceneArgs, SolveArgs};
+use super::args::{DisplayArgs, EstimateArgs, ImageArgs, SceneArgs, SolveArgs};
+use super::choices::{FilterArg, ModeArg};
 use super::terminal::tell;
 use radiosity_geometry::{Divisions, PixelFilter};
 use radiosity_scene::{Mode, Scene};

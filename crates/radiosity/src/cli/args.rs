@@ -1,10 +1,11 @@
 //! The command line, as clap reads it.
 
+use super::choices::{ByArg, FilterArg, FormatArg, ModeArg};
 use super::parse::{
     parse_counts, parse_csv_path, parse_difference_path, parse_matrix_path, parse_positive,
     parse_row_tolerance, parse_size, parse_threshold, parse_tolerance,
 };
-use clap::{Args, Subcommand, ValueEnum};
+use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
 /// The stages, and what helps with them.
@@ -27,6 +28,8 @@ pub enum Command {
     Check(CheckArgs),
     /// See or empty the cache
     Cache(CacheCommand),
+    /// Show what a cached file holds, how it was made, and how good it is
+    Inspect(InspectCommand),
 }
 
 /// Which scene.
@@ -305,6 +308,19 @@ pub struct CacheCommand {
     pub folder: Option<PathBuf>,
 }
 
+/// `inspect`.
+#[derive(Debug, Args)]
+pub struct InspectCommand {
+    /// A cached file; `cache list` names them
+    pub file: PathBuf,
+    /// The scene, for the names of its surfaces [default: the one that the file is named after]
+    #[arg(long)]
+    pub scene: Option<String>,
+    /// Print one JSON object on standard output
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// What to do with the cache.
 #[derive(Clone, Copy, Debug, Subcommand)]
 pub enum CacheAction {
@@ -312,48 +328,4 @@ pub enum CacheAction {
     List,
     /// Remove all of them but those in use
     Clean,
-}
-
-/// [`By`](crate::By) on the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ByArg {
-    /// Patches, in the order of the input
-    Patch,
-    /// Surfaces: the mean over their patches, weighted by area
-    Surface,
-    /// Groups of surfaces, as the scene names them
-    Group,
-}
-
-/// [`Mode`](radiosity_scene::Mode) on the command line.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum ModeArg {
-    /// Fixed points on each patch, all pairs of them
-    Regular,
-    /// Exact where nothing stands between two patches, times their visible share where something
-    /// does, to a --tolerance
-    Accurate,
-    /// Random points; its variance is unbounded where patches touch, so it needs many pairs
-    /// there, or the solution may not exist
-    MonteCarlo,
-}
-
-/// [`PixelFilter`](radiosity_geometry::PixelFilter) on the command line.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum FilterArg {
-    /// A tent around each sub-pixel that overlaps its neighbours: the course's filter
-    Tents,
-    /// Evenly over the pixel
-    Box,
-}
-
-/// File formats on the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum FormatArg {
-    /// Portable pixmap, binary (P6)
-    Ppm,
-    /// Portable pixmap, text (P3)
-    PlainPpm,
-    /// Portable network graphics, 8 bit
-    Png,
 }

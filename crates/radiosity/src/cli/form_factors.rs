@@ -1,6 +1,7 @@
 //! `form-factors`.
 
-use super::args::{ByArg, FormFactorsCommand};
+use super::args::FormFactorsCommand;
+use super::choices::ByArg;
 use super::run::{check_folder_of, store, with_threads, write_by};
 use super::site::Site;
 use super::terminal::Terminal;

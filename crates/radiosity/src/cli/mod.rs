@@ -3,8 +3,11 @@
 mod apply;
 mod args;
 mod cache_folder;
+mod check;
+mod choices;
 mod compare;
 mod form_factors;
+mod inspect;
 mod parse;
 mod reference;
 mod run;
@@ -13,8 +16,8 @@ pub(crate) mod terminal;
 
 pub use args::{
     CacheAction, CacheArgs, CacheCommand, CheckArgs, Command, CompareCommand, DisplayArgs,
-    DisplayCommand, EstimateArgs, FormFactorsCommand, ImageArgs, ReferenceCommand, SceneArgs,
-    SolveArgs, SolveCommand,
+    DisplayCommand, EstimateArgs, FormFactorsCommand, ImageArgs, InspectCommand, ReferenceCommand,
+    SceneArgs, SolveArgs, SolveCommand,
 };
 pub use run::run;
 pub use site::Site;

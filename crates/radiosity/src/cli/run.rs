@@ -1,19 +1,20 @@
 //! What each command does.
 
-use super::args::{
-    CheckArgs, Command, DisplayArgs, DisplayCommand, EstimateArgs, FormatArg, SolveCommand,
-};
+use super::args::{Command, DisplayArgs, DisplayCommand, EstimateArgs, SolveCommand};
 use super::cache_folder;
+use super::check;
+use super::choices::FormatArg;
 use super::compare;
 use super::form_factors;
+use super::inspect;
 use super::reference;
 use super::site::Site;
-use super::terminal::{Terminal, say, tell};
+use super::terminal::{Terminal, tell};
 use crate::artifact::Sources;
 use crate::error::Error;
 use crate::export::radiosity_table;
 use crate::pipeline::Pipeline;
-use crate::report::{DisplayReport, Report, check_lines, needs_of};
+use crate::report::{DisplayReport, Report};
 use radiosity_cache::{Store, replace_file_by};
 use radiosity_renderer::{Image, PictureFormat, Pictures, ToneMap, encode};
 use radiosity_scene::{ImageSettings, Scene};
@@ -39,8 +40,9 @@ pub fn run(command: &Command, site: &Site) -> ExitCode {
         Command::Solve(args) => solve(args, site),
         Command::Reference(args) => reference::run(args, site),
         Command::Compare(args) => compare::run(args, site),
-        Command::Check(args) => check(args, site),
+        Command::Check(args) => check::run(args, site),
         Command::Cache(args) => cache_folder::run(args, site),
+        Command::Inspect(args) => inspect::run(args, site),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -104,16 +106,6 @@ fn display(args: &DisplayCommand, site: &Site) -> Result<(), Error> {
         }
         report.finish()
     })
-}
-
-fn check(args: &CheckArgs, site: &Site) -> Result<(), Error> {
-    let mut scene = site.load(&args.scene.scene)?;
-    args.scene.apply(&mut scene);
-    let needs = needs_of(&scene)?;
-    for line in check_lines(&scene, &needs) {
-        say(&line)?;
-    }
-    needs.check_memory()
 }
 
 /// The solution, with each stage reported as soon as it is done.

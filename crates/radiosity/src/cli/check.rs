@@ -1,0 +1,53 @@
+//! `check`.
+
+use super::args::CheckArgs;
+use super::site::Site;
+use super::terminal::say;
+use crate::error::Error;
+use crate::lines::{indented, scene_line};
+use crate::resources::{Needs, bytes, grouped};
+use crate::settings::estimator;
+use radiosity_geometry::count_patches;
+use radiosity_scene::Scene;
+
+pub(super) fn run(args: &CheckArgs, site: &Site) -> Result<(), Error> {
+    let mut scene = site.load(&args.scene.scene)?;
+    args.scene.apply(&mut scene);
+    let needs = needs_of(&scene)?;
+    for line in check_lines(&scene, &needs) {
+        say(&line)?;
+    }
+    needs.check_memory()
+}
+
+/// What `check` says.
+fn check_lines(scene: &Scene, needs: &Needs) -> Vec<String> {
+    let camera = if scene.camera.is_some() {
+        ""
+    } else {
+        " (no camera: it cannot be rendered)"
+    };
+    let mut lines = vec![
+        format!("{}{camera}", scene_line(scene, needs.patches)),
+        format!(
+            "{:<14}{} pairs: {} of memory, {} of disk",
+            "form factors",
+            grouped(needs.pairs),
+            bytes(needs.memory),
+            bytes(needs.disk),
+        ),
+    ];
+    if scene.materials.iter().all(|m| m.emission == [0.0; 3]) {
+        lines.push(indented(
+            "warning: nothing emits light; pictures will be black",
+        ));
+    }
+    lines
+}
+
+/// What computing the scene would take.
+fn needs_of(scene: &Scene) -> Result<Needs, Error> {
+    let patches = count_patches(&scene.geometry, scene.divisions)
+        .map_err(|error| Error::of_mesh(scene, &error))?;
+    Ok(Needs::of(patches, estimator(scene)))
+}

@@ -1,0 +1,47 @@
+//! Choices on the command line.
+
+use clap::ValueEnum;
+
+/// [`By`](crate::By) on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ByArg {
+    /// Patches, in the order of the input
+    Patch,
+    /// Surfaces: the mean over their patches, weighted by area
+    Surface,
+    /// Groups of surfaces, as the scene names them
+    Group,
+}
+
+/// [`Mode`](radiosity_scene::Mode) on the command line.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum ModeArg {
+    /// Fixed points on each patch, all pairs of them
+    Regular,
+    /// Exact where nothing stands between two patches, times their visible share where something
+    /// does, to a --tolerance
+    Accurate,
+    /// Random points; its variance is unbounded where patches touch, so it needs many pairs
+    /// there, or the solution may not exist
+    MonteCarlo,
+}
+
+/// [`PixelFilter`](radiosity_geometry::PixelFilter) on the command line.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum FilterArg {
+    /// A tent around each sub-pixel that overlaps its neighbours: the course's filter
+    Tents,
+    /// Evenly over the pixel
+    Box,
+}
+
+/// File formats on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum FormatArg {
+    /// Portable pixmap, binary (P6)
+    Ppm,
+    /// Portable pixmap, text (P3)
+    PlainPpm,
+    /// Portable network graphics, 8 bit
+    Png,
+}

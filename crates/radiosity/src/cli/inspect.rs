@@ -1,0 +1,166 @@
+//! `inspect`.
+
+use super::args::InspectCommand;
+use super::site::Site;
+use super::terminal::say;
+use crate::error::Error;
+use crate::inspect::{CLOSURE_BOUNDS, FactorInspection, Inspection, SolutionInspection, WorstRow};
+use crate::lines::{class_line, error_line, indented, labelled, row_line};
+use crate::resources::{bytes, grouped};
+use radiosity_cache::{Miss, open};
+use radiosity_form_factors::Estimator;
+use std::path::Path;
+
+/// The longest bar of the histogram, in characters.
+const LONGEST_BAR: f64 = 40.0;
+
+pub(super) fn run(args: &InspectCommand, site: &Site) -> Result<(), Error> {
+    let path = &args.file;
+    let unusable = |miss: Miss| Error::Input(explanation(path, &miss));
+    let opened = open(path).map_err(unusable)?;
+    let names = surface_names(args, site, &opened.stage)?;
+    let inspection = Inspection::of(opened, names.as_deref()).map_err(unusable)?;
+    if args.json {
+        return say(&serde_json::to_string(&inspection).expect("plain data always encodes"));
+    }
+    let size = std::fs::metadata(path).map_or(0, |metadata| metadata.len());
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    say(&labelled(
+        "file",
+        &format!("{name}, {}: no byte is damaged", bytes(size)),
+    ))?;
+    say(&labelled("key", &inspection.key))?;
+    if let Some(form_factors) = &inspection.form_factors {
+        factor_lines(form_factors)
+            .iter()
+            .try_for_each(|line| say(line))?;
+    }
+    match &inspection.solution {
+        Some(solution) => say(&solution_line(solution)),
+        None => Ok(()),
+    }
+}
+
+fn explanation(path: &Path, miss: &Miss) -> String {
+    let path = path.display();
+    let help = match miss {
+        Miss::Io(_) => "give the path of a file in the cache; `cache list` names them",
+        Miss::NotACacheFile => {
+            "give a .bin file of the cache; unfinished ones are named .partial, and the command \
+             that began one goes on with it"
+        }
+        _ => "the command that needs it makes it anew",
+    };
+    format!("{path}: {miss}\n   = help: {help}")
+}
+
+/// The names of the scene's surfaces, if it is there and can be read: the one that was named, or
+/// the one that the file is named after.
+fn surface_names(
+    args: &InspectCommand,
+    site: &Site,
+    stage: &str,
+) -> Result<Option<Vec<String>>, Error> {
+    let name = args.file.file_name().unwrap_or_default().to_string_lossy();
+    let scene = match &args.scene {
+        Some(scene) => Some(site.load(scene)?),
+        None => name
+            .rsplit_once(&format!("-{stage}-"))
+            .and_then(|(scene, _)| site.load(scene).ok()),
+    };
+    let names = |scene: radiosity_scene::Scene| {
+        let surfaces = scene.surfaces.into_iter();
+        surfaces.map(|surface| surface.name).collect()
+    };
+    Ok(scene.map(names))
+}
+
+fn factor_lines(found: &FactorInspection) -> Vec<String> {
+    let made = format!(
+        "{} between {} patches of {} surfaces",
+        estimator(found.estimator),
+        grouped(found.patches as u64),
+        grouped(found.surfaces as u64),
+    );
+    let mut lines = vec![
+        labelled("form factors", &made),
+        labelled("rows", &row_line(&found.rows)),
+    ];
+    lines.extend(error_line(&found.rows).map(|line| indented(&line)));
+    let classes = found.rows.classes.as_ref();
+    lines.extend(classes.map(|c| indented(&class_line(c, found.patches))));
+    lines.push(labelled(
+        "closure",
+        "rows by |fronts + backs + nothing - 1|",
+    ));
+    lines.extend(histogram(&found.closure).iter().map(|line| indented(line)));
+    lines.extend(
+        found
+            .worst
+            .iter()
+            .enumerate()
+            .map(|(k, row)| labelled(if k == 0 { "worst rows" } else { "" }, &worst_line(row))),
+    );
+    lines
+}
+
+fn estimator(estimator: Estimator) -> String {
+    match estimator {
+        Estimator::Regular { points } => format!("regular, {points} x {points} points,"),
+        Estimator::MonteCarlo {
+            points,
+            pairs,
+            seed,
+        } => {
+            format!("monte-carlo, {points} x {points} strata, {pairs} pairs, seed {seed},")
+        }
+        Estimator::Accurate { tolerance } => format!("accurate, tolerance {tolerance:e},"),
+    }
+}
+
+/// A bar for each class of rows.
+fn histogram(closure: &[u64]) -> Vec<String> {
+    let most = closure.iter().copied().max().unwrap_or(0).max(1) as f64;
+    let line = |(k, &count): (usize, &u64)| {
+        let class = match CLOSURE_BOUNDS.get(k) {
+            Some(bound) => format!("below {bound:.0e}"),
+            None => format!("above {:.0e}", CLOSURE_BOUNDS[k - 1]),
+        };
+        let length = (LONGEST_BAR * count as f64 / most).ceil() as usize;
+        let line = format!("{class:<12}{:>9}  {}", grouped(count), "#".repeat(length));
+        line.trim_end().to_owned()
+    };
+    closure.iter().enumerate().map(line).collect()
+}
+
+fn worst_line(row: &WorstRow) -> String {
+    let facts = &row.facts;
+    let error = facts
+        .error
+        .map_or(String::new(), |error| format!(" +- {error:.1e}"));
+    format!(
+        "{:+.1e} at patch {} in `{}`: fronts {:.6}{error}, backs {:.4}, nothing {:.4}, both +- {:.0e}",
+        row.excess,
+        row.patch,
+        row.surface,
+        facts.fronts,
+        facts.backs,
+        facts.background,
+        facts.rays_error,
+    )
+}
+
+fn solution_line(found: &SolutionInspection) -> String {
+    let end = if found.converged {
+        ""
+    } else {
+        ", which is not the tolerance"
+    };
+    let text = format!(
+        "{} patches, {} sweeps to residual {:.1e}{end}",
+        grouped(found.patches as u64),
+        found.sweeps,
+        found.residual,
+    );
+    labelled("solution", &text)
+}

@@ -1,0 +1,74 @@
+//! What the files of the cache hold beside their arrays.
+
+use crate::rows::RowSummary;
+use radiosity_form_factors::{Classes, Estimator, FormFactors, RowFacts};
+use radiosity_geometry::Mesh;
+use radiosity_solver::Convergence;
+use serde::{Deserialize, Serialize};
+
+pub(crate) const FORM_FACTORS: &str = "form-factors";
+pub(crate) const SOLUTION: &str = "solution";
+/// Raise it whenever the layout of anything here changes: it is part of every key.
+pub(crate) const VERSION: u32 = 4;
+
+/// Beside the matrix of form factors.
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) struct FactorFacts {
+    pub(crate) estimator: Estimator,
+    /// How many patches each surface has: theirs come one after the other.
+    pub(crate) patches_of_surfaces: Vec<u32>,
+    /// Per patch.
+    pub(crate) rows: Vec<RowFacts>,
+    pub(crate) classes: Option<Classes>,
+}
+
+/// Beside the radiosities.
+pub(crate) type SolutionFacts = (Convergence, RowSummary);
+
+impl FactorFacts {
+    pub(crate) fn new(mesh: &Mesh, estimator: Estimator, made: &FormFactors) -> FactorFacts {
+        FactorFacts {
+            estimator,
+            patches_of_surfaces: patches_of_surfaces(mesh),
+            rows: made.rows.clone(),
+            classes: made.classes,
+        }
+    }
+
+    /// Facts that take as much room as those that are not known yet.
+    pub(crate) fn blank(mesh: &Mesh, estimator: Estimator, tells_errors: bool) -> FactorFacts {
+        let row = RowFacts {
+            fronts: 0.0,
+            backs: 0.0,
+            background: 0.0,
+            rays_error: 0.0,
+            error: tells_errors.then_some(0.0),
+        };
+        FactorFacts {
+            estimator,
+            patches_of_surfaces: patches_of_surfaces(mesh),
+            rows: vec![row; mesh.patches.len()],
+            classes: tells_errors.then(Classes::default),
+        }
+    }
+
+    /// The surface of a patch, by its number in the scene.
+    pub(crate) fn surface_of(&self, patch: usize) -> usize {
+        let mut end = 0;
+        let ends = self.patches_of_surfaces.iter().map(|&count| {
+            end += count as usize;
+            end
+        });
+        ends.take_while(|&end| end <= patch).count()
+    }
+}
+
+fn patches_of_surfaces(mesh: &Mesh) -> Vec<u32> {
+    let mut counts = Vec::new();
+    for patch in &mesh.patches {
+        let surface = patch.surface.index();
+        counts.resize(counts.len().max(surface + 1), 0);
+        counts[surface] += 1;
+    }
+    counts
+}

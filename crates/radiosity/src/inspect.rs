@@ -1,0 +1,119 @@
+//! What a file of the cache says of itself.
+
+use crate::facts::{FORM_FACTORS, FactorFacts, SOLUTION, SolutionFacts};
+use crate::rows::RowSummary;
+use radiosity_cache::{Miss, Opened};
+use radiosity_form_factors::{Estimator, RowFacts};
+use serde::Serialize;
+
+/// The object that `inspect --json` prints. Fields may be added, but not changed or removed.
+#[derive(Debug, Serialize)]
+pub(crate) struct Inspection {
+    pub(crate) stage: String,
+    pub(crate) key: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) form_factors: Option<FactorInspection>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) solution: Option<SolutionInspection>,
+}
+
+#[derive(Debug, Serialize)]
+pub(crate) struct FactorInspection {
+    pub(crate) patches: usize,
+    pub(crate) surfaces: usize,
+    pub(crate) estimator: Estimator,
+    pub(crate) rows: RowSummary,
+    /// How many rows have |fronts + backs + background - 1| below 1e-6, 1e-5, and so on; the last
+    /// are all others.
+    pub(crate) closure: [u64; CLOSURE_BOUNDS.len() + 1],
+    /// Those that are farthest from closed.
+    pub(crate) worst: Vec<WorstRow>,
+}
+
+#[derive(Debug, Serialize)]
+pub(crate) struct WorstRow {
+    pub(crate) patch: usize,
+    pub(crate) surface: String,
+    /// fronts + backs + background - 1
+    pub(crate) excess: f64,
+    pub(crate) facts: RowFacts,
+}
+
+#[derive(Debug, Serialize)]
+pub(crate) struct SolutionInspection {
+    pub(crate) patches: usize,
+    pub(crate) sweeps: usize,
+    pub(crate) residual: f64,
+    pub(crate) converged: bool,
+}
+
+/// Between the classes of rows by how far from closed they are.
+pub(crate) const CLOSURE_BOUNDS: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
+/// How many of the worst rows are shown.
+const WORST: usize = 5;
+
+impl Inspection {
+    /// Reads all of a file. `names` are those of the surfaces, if they are known.
+    pub(crate) fn of(opened: Opened, names: Option<&[String]>) -> Result<Inspection, Miss> {
+        let (stage, key) = (opened.stage.clone(), opened.key.to_string());
+        let mut inspection = Inspection {
+            stage,
+            key,
+            form_factors: None,
+            solution: None,
+        };
+        match &inspection.stage[..] {
+            FORM_FACTORS => {
+                let (facts, _) = opened.into_artifact()?.into_values()?;
+                inspection.form_factors = Some(FactorInspection::of(&facts, names));
+            }
+            SOLUTION => {
+                let artifact = opened.into_artifact::<SolutionFacts>()?;
+                let ((report, _), values) = artifact.into_values()?;
+                inspection.solution = Some(SolutionInspection {
+                    patches: values.as_ref().len() / 3,
+                    sweeps: report.residuals.len(),
+                    residual: report.residual(),
+                    converged: report.converged,
+                });
+            }
+            _ => return Err(Miss::NotACacheFile),
+        }
+        Ok(inspection)
+    }
+}
+
+impl FactorInspection {
+    fn of(facts: &FactorFacts, names: Option<&[String]>) -> FactorInspection {
+        let excess = |row: &RowFacts| row.fronts + row.backs + row.background - 1.0;
+        let mut closure = [0; CLOSURE_BOUNDS.len() + 1];
+        for row in &facts.rows {
+            let class = CLOSURE_BOUNDS
+                .iter()
+                .position(|bound| excess(row).abs() < *bound);
+            closure[class.unwrap_or(CLOSURE_BOUNDS.len())] += 1;
+        }
+        let mut order: Vec<usize> = (0..facts.rows.len()).collect();
+        let distance = |patch: &usize| excess(&facts.rows[*patch]).abs();
+        order.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
+        let surfaces = facts.patches_of_surfaces.len();
+        let names = names.filter(|names| names.len() == surfaces);
+        let worst = |&patch: &usize| {
+            let surface = facts.surface_of(patch);
+            WorstRow {
+                patch,
+                surface: names.map_or(format!("surface {surface}"), |names| names[surface].clone()),
+                excess: excess(&facts.rows[patch]),
+                facts: facts.rows[patch],
+            }
+        };
+        FactorInspection {
+            patches: facts.rows.len(),
+            surfaces,
+            estimator: facts.estimator,
+            rows: RowSummary::new(&facts.rows, facts.classes),
+            closure,
+            worst: order.iter().take(WORST).map(worst).collect(),
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! What is said of scenes and artifacts, to people.
+
+use crate::resources::grouped;
+use crate::rows::RowSummary;
+use radiosity_form_factors::Classes;
+use radiosity_scene::Scene;
+
+/// The scene, and into how many patches it is cut.
+pub(crate) fn scene_line(scene: &Scene, patches: usize) -> String {
+    format!(
+        "{:<14}{}: {} surfaces, {} patches",
+        "scene",
+        scene.name,
+        grouped(scene.surfaces.len() as u64),
+        grouped(patches as u64),
+    )
+}
+
+/// What rows sum to.
+pub(crate) fn row_line(rows: &RowSummary) -> String {
+    format!(
+        "sum to {:.4} on average; backs are {:.4} of what patches see, nothing {:.4}",
+        rows.mean, rows.backs, rows.background
+    )
+}
+
+/// The estimated errors of rows, if the estimator tells.
+pub(crate) fn error_line(rows: &RowSummary) -> Option<String> {
+    let (mean, worst) = rows.estimated_error?;
+    Some(format!(
+        "the errors of a row sum to an estimated {mean:.1e} on average, {worst:.1e} at worst"
+    ))
+}
+
+/// Pairs by how much they see of each other.
+pub(crate) fn class_line(Classes { clear, partial }: &Classes, patches: usize) -> String {
+    let pairs = radiosity_matrix::packed_len(patches).max(1) as f64;
+    let percent = |pairs_of: u64| 100.0 * pairs_of as f64 / pairs;
+    format!(
+        "{:.1} % of the pairs are clear (error {:.1e}), {:.1} % partly hidden ({:.1e}), the others hidden",
+        percent(clear.pairs),
+        clear.error,
+        percent(partial.pairs),
+        partial.error,
+    )
+}
+
+pub(crate) fn indented(text: &str) -> String {
+    labelled("", text)
+}
+
+/// Text with a label in the first column.
+pub(crate) fn labelled(label: &str, text: &str) -> String {
+    format!("{label:<14}{text}")
+}
