@@ -19,7 +19,8 @@ const SEED: u64 = 1;
 /// So many faces are tried in turn; more are found by a tree.
 const FASTER_THAN_TREE: usize = 32;
 
-/// Shares of all that a patch sees, by form factor.
+/// Shares of all that a patch sees, by form factor. Faces without patches count as backs, from
+/// either side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Surroundings {
     pub(crate) backs: f64,
@@ -58,7 +59,7 @@ pub(crate) fn look_around(mesh: &Mesh, obstacles: &Obstacles, index: usize) -> S
 }
 
 /// The walls in front of a patch, unless there are too many in the scene.
-fn in_front<'a>(obstacles: &'a Obstacles, patch: &Patch) -> Option<Vec<&'a Blocker>> {
+fn in_front<'a>(obstacles: &'a Obstacles, patch: &Patch) -> Option<Vec<Wall<'a>>> {
     let polygons = &obstacles.walls.polygons;
     if polygons.len() > FASTER_THAN_TREE {
         return None;
@@ -71,17 +72,28 @@ fn in_front<'a>(obstacles: &'a Obstacles, patch: &Patch) -> Option<Vec<&'a Block
         let corners = polygons[id.index()].corners().iter();
         *id != own && corners.map(|&c| plane.height(c)).any(|h| h > tolerance)
     };
-    Some(
-        ids.filter(is_in_front)
-            .map(|id| obstacles.blocker(id))
-            .collect(),
-    )
+    let wall = |id: FaceId| Wall {
+        blocker: obstacles.blocker(id),
+        bare: if obstacles.walls.bare[id.index()] {
+            !0
+        } else {
+            0
+        },
+    };
+    Some(ids.filter(is_in_front).map(wall).collect())
+}
+
+/// What may be met.
+struct Wall<'a> {
+    blocker: &'a Blocker,
+    /// All lanes, if neither side is a front.
+    bare: u8,
 }
 
 struct Look<'a> {
     obstacles: &'a Obstacles,
     patch: &'a Patch,
-    in_front: Option<Vec<&'a Blocker>>,
+    in_front: Option<Vec<Wall<'a>>>,
     shifts: &'a Shifts,
 }
 
@@ -108,7 +120,7 @@ impl Kernel for Look<'_> {
         for k in 0..RAYS {
             let rays = rays(simd, (self.patch, &target), k, self.shifts);
             let met = match &self.in_front {
-                Some(faces) => meet(simd, faces, &rays),
+                Some(walls) => meet(simd, walls, &rays),
                 None => trace(self.obstacles, self.obstacles.wall(self.patch), &rays),
             };
             let weight = rays.from.area;
@@ -180,12 +192,12 @@ fn sin_cos<S: Simd>(simd: S, x: S::F64) -> [S::F64; 2] {
     [x * sin, cos]
 }
 
-/// What rays meet first of some faces.
+/// What rays meet first of some walls.
 ///
-/// A ray meets a face if it comes nearer to its plane, and if where it crosses that its height over
+/// A ray meets a wall if it comes nearer to its plane, and if where it crosses that its height over
 /// each edge, times a positive number, is not negative.
 #[inline(always)]
-fn meet<S: Simd>(simd: S, faces: &[&Blocker], rays: &Rays<S::F64>) -> Met {
+fn meet<S: Simd>(simd: S, walls: &[Wall<'_>], rays: &Rays<S::F64>) -> Met {
     let zero = simd.splat_f64(0.0);
     let [x, y, z] = rays.direction;
     let mut nearest = simd.splat_f64(f64::INFINITY);
@@ -193,8 +205,8 @@ fn meet<S: Simd>(simd: S, faces: &[&Blocker], rays: &Rays<S::F64>) -> Met {
         backs: 0,
         nothing: !0,
     };
-    for face in faces {
-        let [plane, edges @ ..] = &face.planes;
+    for wall in walls {
+        let [plane, edges @ ..] = &wall.blocker.planes;
         let (from, along) = (
             height(simd, plane, &rays.from),
             dot(simd, plane.normal, x, y, z),
@@ -209,7 +221,7 @@ fn meet<S: Simd>(simd: S, faces: &[&Blocker], rays: &Rays<S::F64>) -> Met {
         let at = distance / speed;
         hits &= at.less(nearest);
         nearest = at.select(hits, nearest);
-        met.backs = met.backs & !hits | from.less(zero) & hits;
+        met.backs = met.backs & !hits | (from.less(zero) | wall.bare) & hits;
         met.nothing &= !hits;
     }
     met
@@ -232,7 +244,9 @@ fn trace<F: Float<f64>>(obstacles: &Obstacles, except: FaceId, rays: &Rays<F>) -
             .occluders
             .closest_hit(&ray, 0.0, f64::INFINITY, Some(except));
         met.nothing |= u8::from(hit.is_none()) << lane;
-        met.backs |= u8::from(hit.is_some_and(|hit| !hit.front)) << lane;
+        let is_bare = |wall: FaceId| obstacles.walls.bare[wall.index()];
+        let is_back = hit.is_some_and(|hit| !hit.front || is_bare(hit.face));
+        met.backs |= u8::from(is_back) << lane;
     }
     met
 }

@@ -26,7 +26,7 @@ impl FaceId {
     }
 }
 
-/// How a face is cut into patches.
+/// How a face is cut into patches. Where counts are 0 it has none: it only stands in the way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Grid {
     /// `a x b` cells of the bilinear map, `a` along the edge from corner 0 to corner 1.
@@ -71,6 +71,11 @@ pub struct Face {
 }
 
 impl Face {
+    /// Whether it only stands in the way.
+    pub fn is_bare(&self) -> bool {
+        self.grid.cells() == 0
+    }
+
     /// The indices of its patches.
     pub fn patches(&self) -> std::ops::Range<usize> {
         self.first_patch..self.first_patch + self.grid.cells()

@@ -19,6 +19,8 @@ pub enum Divisions {
     /// As few cells as keep every patch edge at most this long, in scene units. Faces of meshes
     /// take the next power of two, so that neighbours of different size fit together.
     MaxEdge(f64),
+    /// No cells at all: the surface stands in the way, and neither emits nor receives.
+    Uncut,
 }
 
 impl Divisions {
@@ -38,11 +40,12 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// The same shape, cut as the default says.
+    /// The same shape, cut as the default says, unless it is not to be cut at all.
     pub fn without_divisions(&self) -> Surface {
+        let is_uncut = |divisions: &Divisions| *divisions == Divisions::Uncut;
         Surface {
             shape: self.shape.clone(),
-            divisions: None,
+            divisions: self.divisions.filter(is_uncut),
         }
     }
 }
@@ -78,7 +81,7 @@ pub enum MeshError {
     #[error("the subdivision gives more than 1,048,576 patches; choose a coarser one")]
     TooManyPatches,
     /// There is nothing to cut.
-    #[error("the scene has no surfaces")]
+    #[error("the scene has no surfaces, or none that emit and receive")]
     Empty,
 }
 
@@ -130,14 +133,13 @@ fn uncut_faces(surfaces: &[Surface], default: Divisions) -> Result<Vec<Face>, Me
             });
         }
     }
-    let too_many = faces
+    let patches = faces
         .iter()
-        .try_fold(0usize, |sum, face| sum.checked_add(face.grid.cells()))
-        .is_none_or(|patches| patches > MAX_PATCHES);
-    match (faces.is_empty(), too_many) {
-        (true, _) => Err(MeshError::Empty),
-        (_, true) => Err(MeshError::TooManyPatches),
-        _ => Ok(faces),
+        .try_fold(0usize, |sum, face| sum.checked_add(face.grid.cells()));
+    match patches {
+        Some(0) => Err(MeshError::Empty),
+        Some(1..=MAX_PATCHES) => Ok(faces),
+        _ => Err(MeshError::TooManyPatches),
     }
 }
 
@@ -166,6 +168,8 @@ fn grid(
     divisions: Divisions,
 ) -> Result<Grid, MeshError> {
     match divisions {
+        Divisions::Uncut if polygon.is_triangle() => Ok(Grid::Triangle { n: 0 }),
+        Divisions::Uncut => Ok(Grid::Quad { a: 0, b: 0 }),
         Divisions::Count { a: 0, .. } | Divisions::Count { b: 0, .. } => {
             Err(MeshError::NoDivisions { surface: id })
         }

@@ -1,7 +1,7 @@
 //! Faces that lie side by side in one plane, as the few large polygons that they make: fewer
 //! things stand in the way.
 
-use crate::mesh::{FaceId, Mesh};
+use crate::mesh::{Face, FaceId, Mesh};
 use crate::occluders::plane_tolerance;
 use crate::polygon::Polygon;
 use glam::DVec3;
@@ -14,6 +14,8 @@ pub struct Walls {
     pub polygons: Vec<Polygon>,
     /// The wall that each face of the mesh is part of.
     pub of_face: Vec<FaceId>,
+    /// Of each wall, whether its faces are [bare](crate::Face::is_bare).
+    pub bare: Vec<bool>,
 }
 
 /// Edges that part by this angle at most run on. (That planes are the same is a matter of heights.)
@@ -21,10 +23,11 @@ const STRAIGHT: f64 = 1e-9;
 
 impl Walls {
     /// Joins faces that share an edge, lie in one plane and face the same way, as long as that
-    /// gives a convex triangle or quadrilateral.
+    /// gives a convex triangle or quadrilateral. Bare faces are joined to bare ones only.
     pub fn new(mesh: &Mesh) -> Walls {
         let polygons = mesh.faces.iter().map(|face| face.polygon).collect();
-        let mut joining = Joining::new(polygons);
+        let bare = mesh.faces.iter().map(Face::is_bare).collect();
+        let mut joining = Joining::new(polygons, bare);
         while joining.pass() {}
         joining.finish()
     }
@@ -37,6 +40,7 @@ struct Joining {
     /// `None` where a polygon has become part of another.
     polygons: Vec<Option<Polygon>>,
     part_of: Vec<usize>,
+    bare: Vec<bool>,
     /// The polygon to the left of each edge.
     left_of: HashMap<Edge, usize>,
     /// The height up to which a corner counts as in a plane.
@@ -44,9 +48,10 @@ struct Joining {
 }
 
 impl Joining {
-    fn new(polygons: Vec<Polygon>) -> Joining {
+    fn new(polygons: Vec<Polygon>, bare: Vec<bool>) -> Joining {
         let mut joining = Joining {
             part_of: (0..polygons.len()).collect(),
+            bare,
             left_of: HashMap::new(),
             tolerance: plane_tolerance(&polygons),
             polygons: polygons.into_iter().map(Some).collect(),
@@ -79,6 +84,9 @@ impl Joining {
         let polygon = self.polygons[k]?;
         edges(&polygon).find_map(|[a, b]| {
             let other = *self.left_of.get(&key([b, a]))?;
+            if self.bare[other] != self.bare[k] {
+                return None;
+            }
             let union = union(&polygon, &self.polygons[other]?, [a, b], self.tolerance)?;
             (other != k).then_some((other, union))
         })
@@ -100,17 +108,24 @@ impl Joining {
 
     fn finish(self) -> Walls {
         let mut places = vec![FaceId(0); self.polygons.len()];
-        let mut polygons = Vec::new();
-        for (place, polygon) in places.iter_mut().zip(&self.polygons) {
+        let (mut polygons, mut bare) = (Vec::new(), Vec::new());
+        for (k, place) in places.iter_mut().enumerate() {
             *place = FaceId(polygons.len() as u32);
-            polygons.extend(*polygon);
+            if let Some(polygon) = self.polygons[k] {
+                polygons.push(polygon);
+                bare.push(self.bare[k]);
+            }
         }
         let whole = |k: usize| {
             let next = |&k: &usize| (self.part_of[k] != k).then_some(self.part_of[k]);
             std::iter::successors(Some(k), next).last().unwrap_or(k)
         };
         let of_face = (0..places.len()).map(|k| places[whole(k)]).collect();
-        Walls { polygons, of_face }
+        Walls {
+            polygons,
+            of_face,
+            bare,
+        }
     }
 }
 

@@ -66,15 +66,14 @@ impl<'a> FactorTable<'a> {
         };
         let mut names: Vec<&str> = Vec::new();
         let mut part_of_name = BTreeMap::new();
-        let mut part_of_surface = |surface| {
-            let name = name_of(surface);
+        // Surfaces without patches are no part of the matrix.
+        let part = |patch: &Patch| {
+            let name = name_of(&scene.surfaces[patch.surface.index()]);
             *part_of_name.entry(name).or_insert_with(|| {
                 names.push(name);
                 names.len() - 1
             })
         };
-        let part_of_surface: Vec<usize> = scene.surfaces.iter().map(&mut part_of_surface).collect();
-        let part = |patch: &Patch| part_of_surface[patch.surface.index()];
         let part_of: Vec<usize> = mesh.patches.iter().map(part).collect();
         let lumped = form_factors.lumped(&part_of, names.len());
         let row = |(part, name)| TableRow {

@@ -64,11 +64,10 @@ impl FactorFacts {
 }
 
 fn patches_of_surfaces(mesh: &Mesh) -> Vec<u32> {
-    let mut counts = Vec::new();
-    for patch in &mesh.patches {
-        let surface = patch.surface.index();
-        counts.resize(counts.len().max(surface + 1), 0);
-        counts[surface] += 1;
+    let last = mesh.faces.iter().map(|face| face.surface.index()).max();
+    let mut counts = vec![0; last.map_or(0, |last| last + 1)];
+    for face in &mesh.faces {
+        counts[face.surface.index()] += face.grid.cells() as u32;
     }
     counts
 }

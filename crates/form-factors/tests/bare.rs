@@ -1,0 +1,80 @@
+//! Faces without patches stand in the way, and do nothing else.
+
+use radiosity_form_factors::{Estimator, FormFactors, estimate};
+use radiosity_geometry::{DVec3, Divisions, MeshError, Shape, Surface, subdivide};
+
+fn square(size: f64, height: f64, facing: f64, divisions: Divisions) -> Surface {
+    let corner = DVec3::new(-0.5 * size, -0.5 * size * facing, height);
+    Surface {
+        shape: Shape::Parallelogram {
+            corner,
+            edge_a: size * DVec3::X,
+            edge_b: size * facing * DVec3::Y,
+        },
+        divisions: Some(divisions),
+    }
+}
+
+const ESTIMATORS: [Estimator; 2] = [
+    Estimator::Accurate { tolerance: 1e-4 },
+    Estimator::Regular { points: 3 },
+];
+
+/// Two squares that face each other, with something halfway between them.
+fn estimated(between: Surface, estimator: Estimator) -> FormFactors {
+    let one = Divisions::uniform(1);
+    let surfaces = [
+        square(1.0, 0.0, 1.0, one),
+        square(1.0, 1.0, -1.0, one),
+        between,
+    ];
+    let mesh = subdivide(&surfaces, one).unwrap();
+    estimate(&mesh, estimator, &|_| ())
+}
+
+#[test]
+fn they_hide_as_others_do_and_are_no_fronts() {
+    for (facing, estimator) in [1.0, -1.0]
+        .into_iter()
+        .flat_map(|f| ESTIMATORS.map(|e| (f, e)))
+    {
+        let with = |divisions| estimated(square(0.4, 0.5, facing, divisions), estimator);
+        let (bare, patched) = (with(Divisions::Uncut), with(Divisions::uniform(1)));
+        assert_eq!((bare.areas.len(), patched.areas.len()), (2, 3));
+        // Both are rounded to 24 bits, in units of other total areas.
+        assert!((bare.factor(0, 1) - patched.factor(0, 1)).abs() < 1e-7);
+        assert!(bare.factor(0, 1) < 0.19, "in part hidden");
+        if estimator != ESTIMATORS[0] {
+            continue;
+        }
+        // What was a front or a back of the plate is now a back from either side.
+        let plate = patched.factor(0, 2).max(patched.factor(1, 2));
+        for row in &bare.rows {
+            assert!((row.backs - plate).abs() < 4.0 * row.rays_error, "{row:?}");
+            let sum = row.fronts + row.backs + row.background;
+            assert!((sum - 1.0).abs() < 4.0 * row.rays_error, "{row:?}");
+        }
+    }
+}
+
+#[test]
+fn among_many_walls_they_are_backs_too() {
+    // More walls than are tried in turn, all of them out of the way.
+    let one = Divisions::uniform(1);
+    let mut surfaces = vec![
+        square(1.0, 0.0, 1.0, one),
+        square(9.0, 0.1, 1.0, Divisions::Uncut),
+    ];
+    surfaces.extend((0..40).map(|k| square(1.0, -2.0 - f64::from(k), 1.0, one)));
+    let mesh = subdivide(&surfaces, one).unwrap();
+    let made = estimate(&mesh, ESTIMATORS[0], &|_| ());
+    // By the factor of parallel squares, less than a thousandth passes by.
+    assert!(made.rows[0].backs > 0.99, "{:?}", made.rows[0]);
+}
+
+#[test]
+fn a_scene_needs_a_patch() {
+    let surfaces = [square(1.0, 0.0, 1.0, Divisions::Uncut)];
+    let error = subdivide(&surfaces, Divisions::uniform(1)).unwrap_err();
+    assert_eq!(error, MeshError::Empty);
+}
