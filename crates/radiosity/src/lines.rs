@@ -24,6 +24,14 @@ pub(crate) fn row_line(rows: &RowSummary) -> String {
     )
 }
 
+/// How far the rows of a scene that says it is closed are from that.
+pub(crate) fn closed_line(rows: &RowSummary) -> String {
+    format!(
+        "the scene is closed: row sums are off 1 by {:.1e} on average, {:.1e} at worst",
+        rows.mean_error, rows.max_error
+    )
+}
+
 /// The estimated errors of rows, if the estimator tells.
 pub(crate) fn error_line(rows: &RowSummary) -> Option<String> {
     let (mean, worst) = rows.estimated_error?;

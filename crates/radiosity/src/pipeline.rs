@@ -82,6 +82,11 @@ impl<'a> Pipeline<'a> {
         })
     }
 
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        self.scene
+    }
+
     /// The patches.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh

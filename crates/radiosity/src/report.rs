@@ -3,7 +3,7 @@
 use crate::artifact::{How, Origin};
 use crate::cli::terminal::{Terminal, say};
 use crate::error::Error;
-use crate::lines::{class_line, error_line, indented, row_line, scene_line};
+use crate::lines::{class_line, closed_line, error_line, indented, row_line, scene_line};
 use crate::pipeline::Pipeline;
 use crate::resources::{bytes, grouped};
 use crate::rows::RowSummary;
@@ -55,8 +55,9 @@ struct FormFactorReport {
     /// The mean shares of what a patch sees that are backs, and nothing at all: by rays.
     row_backs_mean: f64,
     row_background_mean: f64,
-    /// The largest |row sum - 1|; in open scenes no error.
+    /// The largest |row sum - 1|, and their mean; in open scenes no error.
     row_sum_max_error: f64,
+    row_sum_mean_error: f64,
     /// Of all rows, the mean estimated sum of the absolute errors of their factors, if the
     /// estimator tells.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -126,6 +127,9 @@ impl<'a> Report<'a> {
         if let Some(line) = error_line(rows) {
             self.terminal.line(&indented(&line));
         }
+        if pipeline.scene().closed {
+            self.terminal.line(&indented(&closed_line(rows)));
+        }
         if let Some(classes) = &rows.classes {
             let patches = pipeline.mesh().patches.len();
             self.terminal.line(&indented(&class_line(classes, patches)));
@@ -149,6 +153,7 @@ impl<'a> Report<'a> {
             row_backs_mean: rows.backs,
             row_background_mean: rows.background,
             row_sum_max_error: rows.max_error,
+            row_sum_mean_error: rows.mean_error,
             row_error_mean: rows.estimated_error.map(|(mean, _)| mean),
             row_error_max: rows.estimated_error.map(|(_, worst)| worst),
             classes: rows.classes,

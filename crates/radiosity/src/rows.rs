@@ -15,6 +15,8 @@ pub struct RowSummary {
     /// The largest distance of a row sum from 1. In open scenes that is no error: what is
     /// missing left the scene.
     pub max_error: f64,
+    /// The mean of these distances.
+    pub mean_error: f64,
     /// How many rows sum to more than 1.001.
     pub excessive: u64,
     /// The largest row sum, and its patch.
@@ -50,6 +52,7 @@ impl RowSummary {
             backs: mean(|row| row.backs),
             background: mean(|row| row.background),
             max_error: sums().map(|sum| (sum - 1.0).abs()).fold(0.0, f64::max),
+            mean_error: sums().map(|sum| (sum - 1.0).abs()).sum::<f64>() / rows.len() as f64,
             excessive: sums().filter(|&sum| sum > EXCESSIVE).count() as u64,
             largest,
             estimated_error: estimated_error(rows),

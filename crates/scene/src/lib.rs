@@ -1,4 +1,4 @@
-//! Turns scene files (TOML) and mesh files (OBJ) into a checked [`Scene`].
+//! Turns scene files (TOML, or View3D's) and mesh files (OBJ) into a checked [`Scene`].
 //!
 //! Every error says what is wrong, shows the line it stands in and says how to mend it
 //! ([`SceneError`]). What [`load`] returns is usable: numbers are finite and in range, names
@@ -16,6 +16,7 @@ mod settings;
 mod source;
 mod surface;
 mod values;
+mod vs3;
 
 #[cfg(test)]
 mod tests;

@@ -6,6 +6,7 @@ use crate::material::{Material, materials};
 use crate::settings::{FormFactorSettings, ImageSettings, SolverSettings};
 use crate::source::{Complaint, SceneError, Source};
 use crate::surface::{Context, Surface};
+use crate::vs3;
 use radiosity_geometry::{self as geometry, Camera, Divisions, SurfaceId};
 use std::path::Path;
 
@@ -30,6 +31,10 @@ pub struct Scene {
     pub form_factors: FormFactorSettings,
     /// The solver stage.
     pub solver: SolverSettings,
+    /// Whether the file says that patches see nothing but fronts, so that rows should sum to 1.
+    pub closed: bool,
+    /// What the file says beside, and means nothing here.
+    pub notes: Vec<String>,
 }
 
 impl Scene {
@@ -48,12 +53,13 @@ impl Scene {
     }
 }
 
-/// Reads and checks a scene file, and the mesh files that it names.
+/// Reads and checks a scene file (TOML, or `.vs3` of View3D), and the mesh files that it names.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
-    if path
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("obj"))
-    {
+    let ends_in = |ending| {
+        path.extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case(ending))
+    };
+    if ends_in("obj") {
         let help = "write a scene file with a surface: mesh = { file = \"NAME.obj\" }";
         return Err(SceneError::of_file(
             path,
@@ -61,10 +67,17 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
             help,
         ));
     }
-    let text = std::fs::read_to_string(path).map_err(|error| {
+    let unreadable = |error| {
         let title = format!("cannot read the scene: {error}");
-        SceneError::of_file(path, &title, "give the path of a scene file (.toml)")
-    })?;
+        SceneError::of_file(path, &title, "give the path of a scene file (.toml, .vs3)")
+    };
+    if ends_in("vs3") {
+        // Comments and names may be in any encoding.
+        let bytes = std::fs::read(path).map_err(unreadable)?;
+        let text = &String::from_utf8_lossy(&bytes);
+        return vs3::parse(&Source { path, text });
+    }
+    let text = std::fs::read_to_string(path).map_err(unreadable)?;
     parse(path, &text)
 }
 
@@ -94,5 +107,7 @@ pub fn parse(path: &Path, text: &str) -> Result<Scene, SceneError> {
         form_factors: file.form_factors.check(&source)?,
         solver: file.solver.check(&source)?,
         materials,
+        closed: false,
+        notes: Vec::new(),
     })
 }

@@ -1,5 +1,6 @@
 //! Where things are kept: in a checkout, or around an installed command.
 
+use super::terminal::tell;
 use crate::error::Error;
 use etcetera::{BaseStrategy, choose_base_strategy};
 use radiosity_scene::{Scene, load};
@@ -41,13 +42,22 @@ impl Site {
 
     /// Loads a scene by the path of its file, or by its name.
     pub(crate) fn load(&self, wanted: &str) -> Result<Scene, Error> {
-        let is_path = wanted.contains(['/', '\\']) || wanted.ends_with(".toml");
+        let scene = load(&self.path_of(wanted)?)?;
+        for note in &scene.notes {
+            tell(&format!("note: {note}"));
+        }
+        Ok(scene)
+    }
+
+    fn path_of(&self, wanted: &str) -> Result<PathBuf, Error> {
+        let endings = [".toml", ".vs3"];
+        let is_path = wanted.contains(['/', '\\']) || endings.iter().any(|e| wanted.ends_with(e));
         if is_path || Path::new(wanted).is_file() {
-            return Ok(load(Path::new(wanted))?);
+            return Ok(wanted.into());
         }
         let named = self.scenes.join(format!("{wanted}.toml"));
         if named.is_file() {
-            return Ok(load(&named)?);
+            return Ok(named);
         }
         Err(Error::NoSuchScene {
             wanted: wanted.to_owned(),

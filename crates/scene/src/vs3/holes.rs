@@ -1,0 +1,183 @@
+//! Convex polygons without the convex polygons that lie on them.
+
+use radiosity_geometry::{DVec3, PolygonMesh};
+
+/// Parts smaller than this share of the whole are rounding.
+const NEGLIGIBLE: f64 = 1e-12;
+
+/// The part of a planar convex polygon that other ones in its plane, turning the same way, do
+/// not cover, as faces of three or four corners.
+pub(super) fn remainder(whole: &[DVec3], normal: DVec3, holes: &[&[DVec3]]) -> PolygonMesh {
+    let least = NEGLIGIBLE * area(whole, normal);
+    let mut pieces = vec![whole.to_vec()];
+    for hole in holes {
+        let around = |piece: Vec<DVec3>| outside(piece, hole, normal);
+        pieces = pieces.into_iter().flat_map(around).collect();
+        pieces.retain(|piece| area(piece, normal) > least);
+    }
+    let mut mesh = PolygonMesh::default();
+    for piece in pieces {
+        let first = mesh.positions.len() as u32;
+        let last = first + piece.len() as u32 - 1;
+        mesh.positions.extend(piece);
+        let mut at = first + 1;
+        while at < last {
+            let next = last.min(at + 2);
+            let face = [first, at, at + 1, next];
+            mesh.faces.push(face[..(next - at + 2) as usize].to_vec());
+            at = next;
+        }
+    }
+    mesh
+}
+
+/// What of a polygon is outside of a hole: what is beyond its first edge, of the rest what is
+/// beyond the second, and so on.
+fn outside(piece: Vec<DVec3>, hole: &[DVec3], normal: DVec3) -> Vec<Vec<DVec3>> {
+    let mut beyond = Vec::new();
+    let mut rest = piece;
+    for (k, &corner) in hole.iter().enumerate() {
+        let inward = normal.cross(hole[(k + 1) % hole.len()] - corner);
+        let (left, right) = split(&rest, corner, inward);
+        beyond.extend(right);
+        match left {
+            Some(left) => rest = left,
+            None => break,
+        }
+    }
+    beyond
+}
+
+/// Both sides of a line: the one that `inward` points to, and the other.
+fn split(
+    polygon: &[DVec3],
+    on_line: DVec3,
+    inward: DVec3,
+) -> (Option<Vec<DVec3>>, Option<Vec<DVec3>>) {
+    let size = polygon
+        .iter()
+        .map(|p| p.distance(polygon[0]))
+        .fold(0.0, f64::max);
+    // Corners that lie on the line but for rounding, do.
+    let on = 1e-12 * size * inward.length();
+    let heights = polygon.iter().map(|p| inward.dot(p - on_line));
+    let heights: Vec<f64> = heights
+        .map(|h| if h.abs() <= on { 0.0 } else { h })
+        .collect();
+    let (mut left, mut right) = (Vec::new(), Vec::new());
+    for (k, (&corner, &height)) in polygon.iter().zip(&heights).enumerate() {
+        let next = (k + 1) % polygon.len();
+        if height >= 0.0 {
+            left.push(corner);
+        }
+        if height <= 0.0 {
+            right.push(corner);
+        }
+        if height * heights[next] < 0.0 {
+            let t = height / (height - heights[next]);
+            let crossing = corner + t * (polygon[next] - corner);
+            left.push(crossing);
+            right.push(crossing);
+        }
+    }
+    let has = |sign: f64| heights.iter().any(|h| h * sign > 0.0);
+    (has(1.0).then_some(left), has(-1.0).then_some(right))
+}
+
+fn area(polygon: &[DVec3], normal: DVec3) -> f64 {
+    let around = polygon
+        .windows(2)
+        .map(|edge| (edge[0] - polygon[0]).cross(edge[1] - polygon[0]));
+    0.5 * normal.dot(around.sum::<DVec3>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use radiosity_geometry::Shape;
+
+    fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Vec<DVec3> {
+        let at = |x, y| DVec3::new(x, y, 2.0);
+        vec![
+            at(x, y),
+            at(x + width, y),
+            at(x + width, y + height),
+            at(x, y + height),
+        ]
+    }
+
+    /// The faces that remain of the unit square, checked to be usable.
+    fn faces(holes: &[Vec<DVec3>]) -> Vec<Vec<DVec3>> {
+        let holes: Vec<&[DVec3]> = holes.iter().map(Vec::as_slice).collect();
+        let mesh = remainder(&rectangle(0.0, 0.0, 1.0, 1.0), DVec3::Z, &holes);
+        let shape = Shape::Mesh(mesh);
+        let polygons = shape.polygons().unwrap();
+        polygons
+            .iter()
+            .map(|(_, polygon)| polygon.corners().to_vec())
+            .collect()
+    }
+
+    fn total(faces: &[Vec<DVec3>]) -> f64 {
+        faces.iter().map(|face| area(face, DVec3::Z)).sum()
+    }
+
+    #[test]
+    fn a_window_leaves_a_frame() {
+        let frame = faces(&[rectangle(0.25, 0.25, 0.5, 0.5)]);
+        assert_eq!(frame.len(), 4);
+        assert!((total(&frame) - 0.75).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_door_touches_the_edge() {
+        let wall = faces(&[rectangle(0.25, 0.0, 0.5, 0.5)]);
+        assert_eq!(wall.len(), 3);
+        assert!((total(&wall) - 0.75).abs() < 1e-12);
+    }
+
+    #[test]
+    fn polygons_of_more_corners_become_several_faces() {
+        // A triangle cuts off all but pieces of up to five corners.
+        let at = |x, y| DVec3::new(x, y, 2.0);
+        let pieces = faces(&[vec![at(0.3, 0.4), at(0.6, 0.3), at(0.5, 0.7)]]);
+        assert!(pieces.iter().all(|face| matches!(face.len(), 3 | 4)));
+        let hole = area(&[at(0.3, 0.4), at(0.6, 0.3), at(0.5, 0.7)], DVec3::Z);
+        assert!((total(&pieces) - 1.0 + hole).abs() < 1e-12);
+    }
+
+    #[test]
+    fn nothing_is_left_of_what_is_covered() {
+        let mesh = remainder(
+            &rectangle(0.0, 0.0, 1.0, 1.0),
+            DVec3::Z,
+            &[
+                &rectangle(0.0, 0.0, 0.5, 1.0),
+                &rectangle(0.5, 0.0, 0.5, 1.0),
+            ],
+        );
+        assert!(mesh.faces.is_empty());
+    }
+
+    proptest! {
+        #[test]
+        fn the_rest_and_disjoint_holes_make_the_whole(
+            x in 0.0f64..0.4, y in 0.0f64..0.9, width in 0.01f64..0.1, height in 0.01f64..0.1,
+            x2 in 0.5f64..0.9, y2 in 0.0f64..0.9,
+        ) {
+            let holes = [rectangle(x, y, width, height), rectangle(x2, y2, width, height)];
+            let rest = faces(&holes);
+            prop_assert!((total(&rest) - 1.0 + 2.0 * width * height).abs() < 1e-12);
+            // No point of a hole is inside of a face.
+            let center = DVec3::new(x + 0.5 * width, y + 0.5 * height, 2.0);
+            for face in rest {
+                let inside = (0..face.len()).all(|k| {
+                    let edge = face[(k + 1) % face.len()] - face[k];
+                    DVec3::Z.cross(edge).dot(center - face[k]) > 0.0
+                });
+                prop_assert!(!inside);
+            }
+        }
+    }
+}

@@ -1,0 +1,234 @@
+//! The lines of a `.vs3` file.
+
+use crate::source::{Complaint, SceneError, Source};
+use arrayvec::ArrayVec;
+use radiosity_geometry::DVec3;
+use std::collections::HashMap;
+use std::str::FromStr;
+
+/// Whether a surface has factors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Surface,
+    Obstruction,
+}
+
+/// A surface as its line says.
+#[derive(Debug)]
+pub(super) struct Entry {
+    /// Counted from 1.
+    pub(super) line: usize,
+    pub(super) number: u32,
+    pub(super) name: String,
+    pub(super) kind: Kind,
+    pub(super) corners: ArrayVec<DVec3, 4>,
+    /// The entry that it lies on.
+    pub(super) base: Option<usize>,
+    /// The entry that it is combined with.
+    pub(super) combined: Option<usize>,
+    pub(super) emittance: f64,
+}
+
+/// Everything that a file says.
+#[derive(Debug, Default)]
+pub(super) struct File {
+    pub(super) entries: Vec<Entry>,
+    /// Whether all that a surface sees are fronts.
+    pub(super) closed: bool,
+    /// What was read and is not used.
+    pub(super) notes: Vec<String>,
+    vertices: HashMap<u32, DVec3>,
+    by_number: HashMap<u32, usize>,
+}
+
+/// The words of a line that are left.
+struct Words<'a> {
+    source: &'a Source<'a>,
+    /// Counted from 1.
+    line: usize,
+    words: std::vec::IntoIter<&'a str>,
+}
+
+pub(super) fn read(source: &Source<'_>) -> Result<File, SceneError> {
+    let mut file = File::default();
+    for (index, line) in source.text.lines().enumerate() {
+        let is_comment = |word: &&str| word.starts_with(['!', '/']);
+        let words: Vec<&str> = line
+            .split_whitespace()
+            .take_while(|w| !is_comment(w))
+            .collect();
+        let mut words = Words {
+            source,
+            line: index + 1,
+            words: words.into_iter(),
+        };
+        let Some(first) = words.words.next() else {
+            continue;
+        };
+        match &first.to_ascii_uppercase()[..] {
+            "T" => {}
+            "C" => file.controls(words),
+            "F" => format(&mut words)?,
+            "V" => file.vertex(words)?,
+            "S" => file.surface(words, Kind::Surface)?,
+            "O" => file.surface(words, Kind::Obstruction)?,
+            "*" | "E" => break,
+            "M" | "N" => {
+                let title = "mask and null surfaces are not supported";
+                let help = "write S or O, and cut the surface so that no mask is needed";
+                return Err(words.error(title, "this line", help));
+            }
+            other => {
+                let title = format!("`{other}` is not known");
+                let help = "lines begin with T, C, F, V, S, O, E or *; comments with ! or /";
+                return Err(words.error(&title, "this line", help));
+            }
+        }
+    }
+    if file.entries.iter().any(|entry| entry.kind == Kind::Surface) {
+        return Ok(file);
+    }
+    let help = "surfaces are lines like: S 1 1 2 3 4 0 0 0.9 floor";
+    Err(SceneError::of_file(
+        source.path,
+        "there are no surfaces",
+        help,
+    ))
+}
+
+fn format(words: &mut Words<'_>) -> Result<(), SceneError> {
+    let format = words.words.next().unwrap_or_default();
+    if format == "3" {
+        return Ok(());
+    }
+    let title = format!("the format is `{format}`, and only `3` can be read");
+    let help = "write the scene in View3D's format `F 3`: vertices (V) and surfaces (S) of them";
+    Err(words.error(&title, "this line", help))
+}
+
+impl File {
+    fn controls(&mut self, words: Words<'_>) {
+        let line = words.line;
+        for word in words.words {
+            match word.split_once('=') {
+                Some((name, value)) if name.eq_ignore_ascii_case("encl") => {
+                    self.closed = value != "0";
+                }
+                _ => self
+                    .notes
+                    .push(format!("`C {word}` in line {line} is not used")),
+            }
+        }
+    }
+
+    fn vertex(&mut self, mut words: Words<'_>) -> Result<(), SceneError> {
+        let number = words.number("the number of a vertex")?;
+        let mut position = DVec3::ZERO;
+        for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+            position[axis] = words.number(name)?;
+            if !position[axis].is_finite() {
+                let title = format!("the vertex's {name} is not finite");
+                return Err(words.error(&title, "this vertex", "give a number"));
+            }
+        }
+        if self.vertices.insert(number, position).is_some() {
+            let title = format!("there are two vertices {number}");
+            return Err(words.error(&title, "the second", "give it another number"));
+        }
+        Ok(())
+    }
+
+    fn surface(&mut self, mut words: Words<'_>, kind: Kind) -> Result<(), SceneError> {
+        let number: u32 = words.number("the number of a surface")?;
+        let corners = self.corners(&mut words)?;
+        let (mut base, mut combined, mut emittance) = (None, None, 1.0);
+        if kind == Kind::Surface {
+            base = self.earlier(&mut words, "base", &[Kind::Surface, Kind::Obstruction])?;
+            combined = self.earlier(&mut words, "cmb", &[Kind::Surface])?;
+            emittance = words.number("the emittance")?;
+            if !(0.0..=1.0).contains(&emittance) {
+                let title = format!("the emittance {emittance} is out of range");
+                return Err(words.error(&title, "this surface", "it is from 0 to 1"));
+            }
+        } else {
+            // The same fields, which mean nothing here.
+            words.words.by_ref().take(3).for_each(drop);
+        }
+        if self.by_number.insert(number, self.entries.len()).is_some() {
+            let title = format!("there are two surfaces {number}");
+            return Err(words.error(&title, "the second", "give it another number"));
+        }
+        let name = words.words.as_slice().join(" ");
+        self.entries.push(Entry {
+            line: words.line,
+            number,
+            name: if name.is_empty() {
+                number.to_string()
+            } else {
+                name
+            },
+            kind,
+            corners,
+            base,
+            combined,
+            emittance,
+        });
+        Ok(())
+    }
+
+    /// Three or four vertices: the fourth is 0 on triangles.
+    fn corners(&self, words: &mut Words<'_>) -> Result<ArrayVec<DVec3, 4>, SceneError> {
+        let mut corners = ArrayVec::new();
+        for position in 1..=4 {
+            let number: u32 = words.number("the number of a vertex")?;
+            match self.vertices.get(&number) {
+                Some(corner) => corners.push(*corner),
+                None if number == 0 && position == 4 => {}
+                None => {
+                    let title = format!("there is no vertex {number}");
+                    let help = "vertices (V) come before the surfaces that they are corners of";
+                    return Err(words.error(&title, "this surface", help));
+                }
+            }
+        }
+        Ok(corners)
+    }
+
+    /// The surface, of these kinds, that a field refers to; 0 is none.
+    fn earlier(
+        &self,
+        words: &mut Words<'_>,
+        field: &str,
+        kinds: &[Kind],
+    ) -> Result<Option<usize>, SceneError> {
+        let number: u32 = words.number(field)?;
+        if number == 0 {
+            return Ok(None);
+        }
+        let index = self.by_number.get(&number).copied();
+        match index.filter(|&index| kinds.contains(&self.entries[index].kind)) {
+            Some(index) => Ok(Some(index)),
+            None => {
+                let title = format!("`{field}` refers to {number}, which is no earlier surface");
+                let help = "name a surface of a line before, or write 0";
+                Err(words.error(&title, "this surface", help))
+            }
+        }
+    }
+}
+
+impl Words<'_> {
+    fn number<T: FromStr>(&mut self, what: &str) -> Result<T, SceneError> {
+        let word = self.words.next().unwrap_or("nothing");
+        word.parse().map_err(|_| {
+            let title = format!("expected {what}, found `{word}`");
+            let help = "fields are: V n x y z; S n v1 v2 v3 v4 base cmb emit name; O likewise";
+            self.error(&title, "in this line", help)
+        })
+    }
+
+    fn error(&self, title: &str, label: &str, help: &str) -> SceneError {
+        let complaint = Complaint::new(title, label).help(help);
+        self.source.error_in_line(self.line, &complaint)
+    }
+}
