@@ -3,6 +3,7 @@
 mod baseline;
 mod form_factors;
 mod truth;
+mod view_factors;
 
 use clap::Subcommand;
 use serde::Serialize;
@@ -14,6 +15,12 @@ pub(crate) enum Bench {
     /// Form factors: speed beside a transcription of the course's program, growth, and what the
     /// accurate mode costs
     FormFactors {
+        /// Print one JSON object per figure: name, value, unit, target, holds
+        #[arg(long)]
+        json: bool,
+    },
+    /// View factors of a closed box, at four sizes, beside View3D (minutes)
+    ViewFactors {
         /// Print one JSON object per figure: name, value, unit, target, holds
         #[arg(long)]
         json: bool,
@@ -97,6 +104,7 @@ pub(crate) fn run(bench: Bench, root: &Path) -> ExitCode {
     let result = match bench {
         Bench::FormFactors { json } => form_factors::run(root, json),
         Bench::Truth { json } => truth::run(root, json),
+        Bench::ViewFactors { json } => view_factors::run(root, json),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

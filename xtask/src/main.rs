@@ -2,10 +2,11 @@
 
 mod bench;
 mod ci;
-mod knot;
+mod generate;
 
 use bench::Bench;
 use clap::{Parser, Subcommand};
+use generate::Generated;
 use radiosity::cli::{Command, EXIT_CODES, Site, run};
 use std::path::Path;
 use std::process::ExitCode;
@@ -30,18 +31,12 @@ enum Task {
         #[command(subcommand)]
         what: Bench,
     },
-    /// Make a file of the checkout anew
+    /// Make a scene or a mesh that follows a rule
     Generate {
         /// Which one
         #[command(subcommand)]
         what: Generated,
     },
-}
-
-#[derive(Clone, Copy, Debug, Subcommand)]
-enum Generated {
-    /// scenes/knot.obj: a tube along a trefoil knot
-    Knot,
 }
 
 fn main() -> ExitCode {
@@ -56,8 +51,6 @@ fn main() -> ExitCode {
         Task::Radiosity(command) => run(&command, &Site::checkout(&root)),
         Task::Bench { what } => bench::run(what, &root),
         Task::Ci => ci::run(&root),
-        Task::Generate {
-            what: Generated::Knot,
-        } => knot::write(&root.join("scenes/knot.obj")),
+        Task::Generate { what } => generate::run(&what, &root),
     }
 }

@@ -4,8 +4,6 @@
 //! vanishes, so the Frenet frame turns smoothly and closes by itself.
 
 use std::fmt::Write;
-use std::path::Path;
-use std::process::ExitCode;
 
 const SEGMENTS: u32 = 110;
 const SIDES: u32 = 14;
@@ -13,18 +11,8 @@ const RADIUS: f64 = 0.5;
 
 type Vector = [f64; 3];
 
-/// Writes the knot as an OBJ file of triangles.
-pub(crate) fn write(path: &Path) -> ExitCode {
-    match std::fs::write(path, obj()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: cannot write {}: {error}", path.display());
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn obj() -> String {
+/// The knot as an OBJ file of triangles.
+pub(super) fn obj() -> String {
     let mut text = String::from(
         "# A tube along a trefoil knot, made by `cargo xtask generate knot`\no knot\n",
     );
