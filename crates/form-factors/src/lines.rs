@@ -117,7 +117,7 @@ fn light<S: Simd>(
         from: zero,
         to: simd.splat_f64(1.0),
     };
-    clip(simd, &mut bright, from_plane, from_plane + slope);
+    clip(&mut bright, from_plane, from_plane + slope);
     bright.to = bright.to.max(bright.from);
     // Both the height over the point's plane and the area grow linearly.
     let (height, area) = (
@@ -177,31 +177,43 @@ fn shadow_of<S: Simd>(
     let across_start = -(at_p * height(simd, plane, &line.start));
     let across_end = -(at_p * height(simd, plane, &line.end));
     let mut shadow = bright;
-    clip(simd, &mut shadow, across_start, across_end);
+    clip(&mut shadow, across_start, across_end);
+    let beyond = simd.splat_f64(BEYOND);
+    if shadow.from.less(shadow.to) == 0 {
+        return Interval {
+            from: beyond,
+            to: beyond,
+        };
+    }
     let squared = at_p * at_p;
     for edge in edges {
         let edge_at_p = height(simd, edge, p);
         let start = edge_at_p * across_start + height(simd, edge, &line.start) * squared;
         let end = edge_at_p * across_end + height(simd, edge, &line.end) * squared;
-        clip(simd, &mut shadow, start, end);
+        clip(&mut shadow, start, end);
     }
     // An interval that ends before it begins is none.
-    shadow.to = shadow.to.max(shadow.from);
-    shadow
+    let is_some = shadow.from.less(shadow.to);
+    Interval {
+        from: shadow.from.select(is_some, beyond),
+        to: shadow.to.select(is_some, beyond),
+    }
 }
 
 /// Leaves of an interval where a linear function of these values at 0 and 1 is positive.
 #[inline(always)]
-fn clip<S: Simd>(simd: S, interval: &mut Interval<S::F64>, at_start: S::F64, at_end: S::F64) {
-    let zero = simd.splat_f64(0.0);
-    let (not_start, not_end) = (at_start.less_or_equal(zero), at_end.less_or_equal(zero));
+fn clip<F: Float<f64>>(interval: &mut Interval<F>, at_start: F, at_end: F) {
+    // Infinite where the function is constant, with its sign.
     let root = at_start / (at_start - at_end);
-    let nowhere = simd.splat_f64(2.0);
-    let from = nowhere.select(not_start & not_end, root.select(not_start & !not_end, zero));
-    let to = root.select(not_end & !not_start, simd.splat_f64(1.0));
-    interval.from = interval.from.max(from);
-    interval.to = interval.to.min(to);
+    let grows = at_start.less(at_end);
+    interval.from = interval.from.max(root).select(grows, interval.from);
+    interval.to = interval.to.select(grows, interval.to.min(root));
 }
+
+/// Intervals that are none stand here, where sorting leaves them last.
+const BEYOND: f64 = 2.0;
+/// Intervals this near to each other are one: shadows of faces that share an edge.
+const TOUCHING: f64 = 1e-12;
 
 /// The integral over the union of intervals.
 #[inline(always)]
@@ -211,17 +223,26 @@ fn light_in_union<S: Simd>(
     light: &Light<S::F64>,
 ) -> S::F64 {
     sort(intervals);
-    let mut covered = simd.splat_f64(0.0);
-    let mut reached = light.bright.from;
-    let end = light.bright.to;
-    for interval in intervals.iter() {
-        // Intervals that are none may begin and end beyond the line.
-        let from = interval.from.max(reached).min(end);
-        let to = interval.to.min(end).max(from);
-        covered = covered + light.over(simd, Interval { from, to });
-        reached = to;
+    let (zero, touching) = (simd.splat_f64(0.0), simd.splat_f64(TOUCHING));
+    let mut covered = zero;
+    let Some((&first, others)) = intervals.split_first() else {
+        return covered;
+    };
+    let mut union = first;
+    for next in others {
+        let is_some = next.from.less(next.to);
+        if is_some == 0 {
+            break;
+        }
+        let apart = (union.to + touching).less(next.from) & is_some;
+        if apart != 0 {
+            covered = covered + light.over(simd, union).select(apart, zero);
+            union.from = next.from.select(apart, union.from);
+            union.to = next.to.select(apart, union.to);
+        }
+        union.to = union.to.max(next.to).select(is_some, union.to);
     }
-    covered
+    covered + light.over(simd, union)
 }
 
 /// Sorts intervals by where they begin, lane by lane.

@@ -26,7 +26,7 @@ struct Size {
 const SIZES: [Size; 4] = [
     Size {
         elements: 313,
-        tolerance: 1.5e-3,
+        tolerance: 7e-4,
         view3d_seconds: 0.24,
         runs: 7,
     },
