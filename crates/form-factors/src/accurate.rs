@@ -3,15 +3,18 @@
 
 use crate::blocker::Blocker;
 use crate::element::Element;
+use crate::far::{self, FarTile};
 use crate::lines::{Lines, MOST_BLOCKERS};
 use crate::obstacles::{Between, Obstacles};
 use crate::random::Stream;
 use crate::segments::{Blocked, Segments};
 use crate::tally::Sight;
 use crate::target::Target;
+use crate::tiles::{Tile, Tiling};
 use crate::unoccluded;
 use crate::visible::{Share, share};
 use radiosity_geometry::Mesh;
+use radiosity_simd::LANES;
 
 /// The share of a row's tolerance that the unoccluded exchange may use up.
 const UNOCCLUDED_SHARE: f64 = 0.02;
@@ -25,6 +28,7 @@ const SEED: u64 = 0;
 pub(crate) struct Accurate<'a> {
     mesh: &'a Mesh,
     elements: Vec<Element>,
+    far_tiles: Vec<FarTile>,
     targets: Vec<Target>,
     tolerance: f64,
 }
@@ -37,27 +41,61 @@ pub(crate) struct Exchange {
     pub(crate) sight: Sight,
 }
 
+impl Exchange {
+    /// Of patches with nothing between them.
+    pub(crate) fn clear(value: f64, error: f64) -> Exchange {
+        let sight = Sight::Clear;
+        Exchange {
+            value,
+            error,
+            sight,
+        }
+    }
+}
+
 impl<'a> Accurate<'a> {
-    pub(crate) fn new(mesh: &'a Mesh, tolerance: f64) -> Accurate<'a> {
+    pub(crate) fn new(mesh: &'a Mesh, tiling: &Tiling, tolerance: f64) -> Accurate<'a> {
+        let elements: Vec<Element> = mesh.patches.iter().map(Element::new).collect();
+        let far_tile = |tile: &Tile| {
+            let patches = tile.patches.iter();
+            FarTile::new(&patches.map(|&patch| &elements[patch]).collect())
+        };
         Accurate {
             mesh,
-            elements: mesh.patches.iter().map(Element::new).collect(),
+            far_tiles: tiling.tiles.iter().map(far_tile).collect(),
             targets: mesh.patches.iter().map(Target::new).collect(),
+            elements,
             tolerance,
         }
     }
 
+    /// The exchange of a patch with those of a tile that are far from it, if nothing stood between
+    /// them.
+    pub(crate) fn far(
+        &self,
+        i: usize,
+        tile: usize,
+        obstacles: &Obstacles,
+    ) -> [Option<Exchange>; LANES] {
+        let error = UNOCCLUDED_SHARE * self.tolerance;
+        let tolerance = obstacles.occluders.plane_tolerance();
+        far::exchange(&self.elements[i], &self.far_tiles[tile], error, tolerance)
+    }
+
+    /// The exchange of a pair of patches, if nothing stood between them.
+    pub(crate) fn near(&self, [i, j]: [usize; 2], obstacles: &Obstacles) -> Exchange {
+        let (i, j) = (&self.elements[i], &self.elements[j]);
+        unoccluded::exchange(i, j, obstacles.occluders.plane_tolerance())
+    }
+
     /// The exchange of a pair of patches, with this between them.
-    pub(crate) fn exchange(
+    pub(crate) fn past(
         &self,
         [i, j]: [usize; 2],
+        unoccluded: Exchange,
         between: &Between,
         obstacles: &Obstacles,
     ) -> Exchange {
-        let error = UNOCCLUDED_SHARE * self.tolerance;
-        let (element_i, element_j) = (&self.elements[i], &self.elements[j]);
-        let tolerance = obstacles.occluders.plane_tolerance();
-        let unoccluded = unoccluded::exchange(element_i, element_j, error, tolerance);
         let clear = unoccluded.value;
         if clear == 0.0 {
             return unoccluded;
@@ -67,7 +105,7 @@ impl<'a> Accurate<'a> {
             Between::Few(faces) => {
                 let faces = faces.iter();
                 let blockers: Vec<Blocker> = faces.map(|&f| *obstacles.blocker(f)).collect();
-                self.past(i, j, &blockers, clear)
+                self.past_few(i, j, &blockers, clear)
             }
             Between::Many => {
                 let faces = [i, j].map(|patch| obstacles.wall(&self.mesh.patches[patch]));
@@ -83,7 +121,7 @@ impl<'a> Accurate<'a> {
 
     /// The visible share past a few blockers: by lines across the larger patch, unless they are
     /// many.
-    fn past(&self, i: usize, j: usize, blockers: &[Blocker], clear: f64) -> Share {
+    fn past_few(&self, i: usize, j: usize, blockers: &[Blocker], clear: f64) -> Share {
         if blockers.len() > MOST_BLOCKERS {
             return self.among(i, j, Blocked::By(blockers), clear);
         }

@@ -55,11 +55,6 @@ impl Element {
         self.normal.dot(point - self.centroid)
     }
 
-    /// Whether a polygon is wholly in front of this element.
-    pub(crate) fn faces_whole(&self, other: &Element, tolerance: f64) -> bool {
-        other.corners.iter().all(|&c| self.height(c) >= -tolerance)
-    }
-
     /// The part of a polygon in front of this element, if there is any. What is within
     /// `tolerance` of the plane counts as on it.
     pub(crate) fn clip(&self, corners: &[DVec3], tolerance: f64) -> Option<Corners> {

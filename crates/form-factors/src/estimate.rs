@@ -65,7 +65,9 @@ impl<'a> Estimation<'a> {
                 pairs,
                 seed,
             } => Method::MonteCarlo(MonteCarlo::new(points, pairs, seed)),
-            Estimator::Accurate { tolerance } => Method::Accurate(Accurate::new(mesh, tolerance)),
+            Estimator::Accurate { tolerance } => {
+                Method::Accurate(Accurate::new(mesh, &tiling, tolerance))
+            }
         };
         let part = |patch: &Patch| {
             let face = &mesh.faces[patch.face.index()];

@@ -25,6 +25,7 @@ mod contour;
 mod element;
 mod estimate;
 mod exchange;
+mod far;
 mod fixed;
 mod gauss;
 mod lines;

@@ -1,11 +1,12 @@
 //! The walk from a tile and a group of tiles down to single pairs, and what each estimator makes of
 //! them.
 
+use crate::accurate::{Accurate, Exchange};
 use crate::estimate::{Estimation, Method, Room};
 use crate::obstacles::Between;
 use crate::part::Part;
 use crate::tally::Sight;
-use crate::tiles::{Group, Tile};
+use crate::tiles::Group;
 
 /// So many faces are listed between parts that will be looked at more closely, and at last.
 const FEW: usize = 64;
@@ -59,7 +60,7 @@ impl Estimation<'_> {
             }
             for (lane, &i) in tiles[tile].patches.iter().enumerate() {
                 if let Some(between) = self.view(&between, [&self.parts[i], part_j], most) {
-                    self.exchange((i, lane), &tiles[other], &between, room, tell);
+                    self.exchange((i, lane), other, &between, room, tell);
                 }
             }
         }
@@ -80,14 +81,14 @@ impl Estimation<'_> {
     fn exchange(
         &self,
         (i, lane): (usize, usize),
-        tile: &Tile,
+        tile: usize,
         between: &Between,
         room: &mut Room,
         tell: &mut impl FnMut(usize, usize, Told),
     ) {
         let patches = &self.mesh.patches;
         let wall = |patch: usize| self.obstacles.wall(&patches[patch]);
-        let others = tile.patches.iter().copied();
+        let others = self.tiling.tiles[tile].patches.iter().copied();
         let others = others.enumerate().filter(|&(_, j)| wall(j) != wall(i));
         match &self.method {
             Method::Regular(regular) => {
@@ -104,19 +105,36 @@ impl Estimation<'_> {
                 }
             }
             Method::Accurate(accurate) => {
-                for (_, j) in others {
-                    let parts = [&self.parts[i], &self.parts[j]];
-                    if let Some(between) = self.view(between, parts, MANY) {
-                        let exchange = accurate.exchange([i, j], &between, &self.obstacles);
-                        let sees = exchange.value > 0.0 || exchange.error > 0.0;
+                let far = accurate.far(i, tile, &self.obstacles);
+                for (k, j) in others {
+                    let exchange = self.accurate(accurate, [i, j], far[k], between);
+                    if let Some(exchange) = exchange.filter(|e| e.value > 0.0 || e.error > 0.0) {
                         let told = Told {
                             value: (exchange.value * self.scale) as f32,
-                            estimate: sees.then_some((exchange.sight, exchange.error)),
+                            estimate: Some((exchange.sight, exchange.error)),
                         };
                         tell(lane, j, told);
                     }
                 }
             }
         }
+    }
+
+    /// The exchange of a pair that sees each other's fronts. `far` is that with nothing between
+    /// them, if they are far apart.
+    fn accurate(
+        &self,
+        accurate: &Accurate<'_>,
+        pair: [usize; 2],
+        far: Option<Exchange>,
+        between: &Between,
+    ) -> Option<Exchange> {
+        let nothing_between = matches!(between, Between::Few(faces) if faces.is_empty());
+        if far.is_some() && nothing_between {
+            return far;
+        }
+        let between = self.view(between, pair.map(|patch| &self.parts[patch]), MANY)?;
+        let unoccluded = far.unwrap_or_else(|| accurate.near(pair, &self.obstacles));
+        Some(accurate.past(pair, unoccluded, &between, &self.obstacles))
     }
 }

@@ -22,7 +22,7 @@ const BYTES_PER_PATCH: u64 = 2048;
 /// A point with the area it stands for.
 const BYTES_PER_POINT: u64 = 32;
 /// What the accurate estimator stores of a patch, in points.
-const ACCURATE_POINTS: u64 = 32;
+const ACCURATE_POINTS: u64 = 48;
 /// Two linear images, and one of them shown and encoded.
 const BYTES_PER_PIXEL: u64 = 2 * 12 + 3 + 12;
 /// The share of the free memory that a run may take.
