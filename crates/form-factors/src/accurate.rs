@@ -130,11 +130,7 @@ impl<'a> Accurate<'a> {
         } else {
             (j, i)
         };
-        let lines = Lines {
-            from: &self.targets[from],
-            across: &self.targets[across],
-            blockers,
-        };
+        let lines = Lines::new(&self.targets[from], &self.targets[across], blockers);
         share(
             &lines,
             Stream::of_pair(SEED, i, j),

@@ -4,9 +4,10 @@
 //! points do.
 
 use crate::angle::angle;
-use crate::blocker::Blocker;
+use crate::blocker::{Blocker, Plane};
 use crate::target::{Points, Target, at, dot, height, points};
 use crate::visible::{Sampler, Shifts, coordinate};
+use arrayvec::ArrayVec;
 use radiosity_simd::{Float, Simd};
 
 /// More blockers are not worth sorting.
@@ -14,10 +15,44 @@ pub(crate) const MOST_BLOCKERS: usize = 8;
 
 /// Lines across a patch, seen from points of another.
 pub(crate) struct Lines<'a> {
-    pub(crate) from: &'a Target,
-    pub(crate) across: &'a Target,
-    /// At most [`MOST_BLOCKERS`].
-    pub(crate) blockers: &'a [Blocker],
+    from: &'a Target,
+    across: &'a Target,
+    screens: ArrayVec<Screen, MOST_BLOCKERS>,
+}
+
+/// A blocker as lines across a patch see it: its planes.
+struct Screen([Side; 5]);
+
+/// A plane, and the heights over it of the starts and the ends of lines: of the first line, and what
+/// they grow up to the last.
+struct Side {
+    plane: Plane,
+    starts: [f64; 2],
+    ends: [f64; 2],
+}
+
+impl<'a> Lines<'a> {
+    /// There are at most [`MOST_BLOCKERS`].
+    pub(crate) fn new(from: &'a Target, across: &'a Target, blockers: &[Blocker]) -> Lines<'a> {
+        let corners = across.line_ends();
+        let side = |plane: Plane| {
+            let [starts, ends] = corners.map(|[first, last]| {
+                let height = plane.height(first);
+                [height, plane.height(last) - height]
+            });
+            Side {
+                plane,
+                starts,
+                ends,
+            }
+        };
+        let screen = |blocker: &Blocker| Screen(blocker.planes.map(side));
+        Lines {
+            from,
+            across,
+            screens: blockers.iter().map(screen).collect(),
+        }
+    }
 }
 
 /// Part of a line, in parameters between 0 and 1.
@@ -60,13 +95,14 @@ impl Sampler for Lines<'_> {
             coordinate(simd, k, 1, shifts),
         );
         let p = points(simd, self.from, u, v);
-        let line = line(simd, self.across, coordinate(simd, k, 2, shifts));
+        let number = coordinate(simd, k, 2, shifts);
+        let line = line(simd, self.across, number);
         let light = light(simd, (self.from, &p), (self.across, &line));
         let mut shadows = [nothing; MOST_BLOCKERS];
-        for (shadow, blocker) in shadows.iter_mut().zip(self.blockers) {
-            *shadow = shadow_of(simd, blocker, (&p, &line), light.bright);
+        for (shadow, screen) in shadows.iter_mut().zip(&self.screens) {
+            *shadow = shadow_of(simd, screen, (&p, number), light.bright);
         }
-        let hidden = light_in_union(simd, &mut shadows[..self.blockers.len()], &light);
+        let hidden = light_in_union(simd, &mut shadows[..self.screens.len()], &light);
         let total = light.over(simd, light.bright);
         [p.area * total, p.area * (total - hidden)]
     }
@@ -77,7 +113,7 @@ impl Sampler for Lines<'_> {
     }
 }
 
-/// The line on which the first parameter is `u`; on triangles it is the shorter the larger `u`.
+/// The line of number `u`, which is the first parameter on it; on triangles it is the shorter the larger `u`.
 #[inline(always)]
 fn line<S: Simd>(simd: S, target: &Target, u: S::F64) -> Line<S::F64> {
     let one = simd.splat_f64(1.0);
@@ -163,36 +199,34 @@ impl<F: Float<f64>> Light<F> {
     }
 }
 
-/// The part of a line that a blocker hides from a point: where a few functions that are linear
+/// The part of a line, named by its number, that a screen hides from a point: where a few functions that are linear
 /// along the line are all positive.
 #[inline(always)]
 fn shadow_of<S: Simd>(
     simd: S,
-    blocker: &Blocker,
-    (p, line): (&Points<S::F64>, &Line<S::F64>),
+    Screen([front, edges @ ..]): &Screen,
+    (p, line): (&Points<S::F64>, S::F64),
     bright: Interval<S::F64>,
 ) -> Interval<S::F64> {
-    let [plane, edges @ ..] = &blocker.planes;
-    let at_p = height(simd, plane, p);
-    let across_start = -(at_p * height(simd, plane, &line.start));
-    let across_end = -(at_p * height(simd, plane, &line.end));
+    let height_of =
+        |[first, growth]: [f64; 2]| simd.splat_f64(first) + line * simd.splat_f64(growth);
+    let at_p = height(simd, &front.plane, p);
+    let across_start = -(at_p * height_of(front.starts));
+    let across_end = -(at_p * height_of(front.ends));
     let mut shadow = bright;
     clip(&mut shadow, across_start, across_end);
-    let beyond = simd.splat_f64(BEYOND);
-    if shadow.from.less(shadow.to) == 0 {
-        return Interval {
-            from: beyond,
-            to: beyond,
-        };
-    }
     let squared = at_p * at_p;
     for edge in edges {
-        let edge_at_p = height(simd, edge, p);
-        let start = edge_at_p * across_start + height(simd, edge, &line.start) * squared;
-        let end = edge_at_p * across_end + height(simd, edge, &line.end) * squared;
+        if shadow.from.less(shadow.to) == 0 {
+            break;
+        }
+        let edge_at_p = height(simd, &edge.plane, p);
+        let start = edge_at_p * across_start + height_of(edge.starts) * squared;
+        let end = edge_at_p * across_end + height_of(edge.ends) * squared;
         clip(&mut shadow, start, end);
     }
     // An interval that ends before it begins is none.
+    let beyond = simd.splat_f64(BEYOND);
     let is_some = shadow.from.less(shadow.to);
     Interval {
         from: shadow.from.select(is_some, beyond),

@@ -58,6 +58,20 @@ impl Target {
     }
 }
 
+impl Target {
+    /// Of the lines on which the first parameter is 0 and 1, the starts, and the ends: what is between
+    /// them is linear. On triangles lines get shorter up to a point.
+    pub(crate) fn line_ends(&self) -> [[DVec3; 2]; 2] {
+        let [a, b] = self.edges;
+        let last = if self.is_triangle {
+            self.corner + a
+        } else {
+            self.corner + a + b + self.twist
+        };
+        [[self.corner, self.corner + a], [self.corner + b, last]]
+    }
+}
+
 /// Area per parameter, constant on triangles, linear on planar quads.
 fn jacobian(polygon: &Polygon, u: f64, v: f64) -> f64 {
     if polygon.is_triangle() {

@@ -68,11 +68,8 @@ fn all_instruction_sets_give_the_same_bits() {
     let mesh = scene();
     let (targets, blockers) = (targets(&mesh), blockers(&mesh));
     let run = |set| {
-        let lines = |from: usize, across: usize| Lines {
-            from: &targets[from],
-            across: &targets[across],
-            blockers: &blockers,
-        };
+        let lines =
+            |from: usize, across: usize| Lines::new(&targets[from], &targets[across], &blockers);
         let all = [
             segment_sums(set, Blocked::By(&blockers), 100),
             sums(set, &lines(0, 1), 100),
@@ -111,11 +108,7 @@ fn lines_and_segments_agree() {
     };
     let expected = share(&segments, stream(), 0.0);
     for (from, across) in [(&i, &j), (&j, &i)] {
-        let lines = Lines {
-            from,
-            across,
-            blockers: &blockers,
-        };
+        let lines = Lines::new(from, across, &blockers);
         let found = share(&lines, stream(), 0.0);
         assert!(found.error < 0.5 * expected.error);
         let error = 4.0 * (found.error + expected.error);
