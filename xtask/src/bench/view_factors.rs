@@ -93,7 +93,12 @@ fn measure(root: &Path, size: &Size, exact: &[f32]) -> Result<Vec<Figure>, Error
     let as_good = Some(Target::Between(0.0, 1e6 * VIEW3D_RMS));
     let faster = Some(Target::AtLeast(PROMISE));
     Ok(vec![
-        figure("tolerance", size.tolerance, "of a row", None),
+        figure(
+            "tolerance",
+            1e3 * size.tolerance,
+            "thousandths, of a row",
+            None,
+        ),
         figure("rms", 1e6 * rms, "millionths, lumped to 313", as_good),
         figure("rows_off", 1e6 * off, "millionths off 1, on average", None),
         figure("seconds", seconds, "s, one thread", None),
