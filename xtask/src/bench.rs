@@ -7,6 +7,7 @@ mod view_factors;
 
 use clap::Subcommand;
 use serde::Serialize;
+use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -90,14 +91,19 @@ impl Figure {
             };
             format!(" ({target}: {kept})")
         });
-        println!("{:<44}{value:>10.3} {}{promise}", self.name, self.unit);
+        let (name, unit) = (&self.name, self.unit);
+        line(&format!("{name:<44}{value:>10.3} {unit}{promise}"));
     }
 
     /// As one line of JSON.
     fn print(&self) {
-        let line = serde_json::to_string(self).expect("plain data always encodes");
-        println!("{line}");
+        line(&serde_json::to_string(self).expect("plain data always encodes"));
     }
+}
+
+/// Prints a line; that nobody reads it any more (`| head`) is no error.
+fn line(text: &str) {
+    let _ = writeln!(std::io::stdout(), "{text}");
 }
 
 pub(crate) fn run(bench: Bench, root: &Path) -> ExitCode {
