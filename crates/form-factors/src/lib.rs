@@ -21,6 +21,7 @@
 mod accurate;
 mod angle;
 mod blocker;
+mod closure;
 mod contour;
 mod element;
 mod estimate;
@@ -52,6 +53,7 @@ use radiosity_matrix::SymmetricMatrix;
 use serde::{Deserialize, Serialize};
 use surroundings::Surroundings;
 
+pub use closure::{Closure, ClosureFacts};
 pub use estimate::{Estimation, estimate};
 pub use lumped::LumpedFactors;
 pub use tally::{ClassFacts, Classes, Tally};
@@ -140,6 +142,8 @@ pub struct FormFactors {
     pub rows: Vec<RowFacts>,
     /// Of pairs, if the estimator tells.
     pub classes: Option<Classes>,
+    /// How rows were made to sum to 1, if they were.
+    pub closure: Option<ClosureFacts>,
 }
 
 impl FormFactors {
@@ -165,6 +169,7 @@ impl FormFactors {
             areas,
             exchange,
             classes: errors.map(|(_, classes)| classes),
+            closure: None,
         }
     }
 

@@ -87,10 +87,20 @@ impl SymmetricMatrix {
 
     /// The sum of each full row, in `f64`; the same for any number of threads.
     pub fn row_sums(&self) -> Vec<f64> {
+        self.product(&vec![1.0; self.size])
+    }
+
+    /// The product with a vector, in `f64`; the same for any number of threads.
+    ///
+    /// # Panics
+    ///
+    /// If the vector has another size than the matrix.
+    pub fn product(&self, vector: &[f64]) -> Vec<f64> {
+        assert_eq!(vector.len(), self.size, "one number per row");
         let values = self.values();
         let bands: Vec<Vec<f64>> = bands(self.size)
             .into_par_iter()
-            .map(|rows| band_sums(values, rows))
+            .map(|rows| band_product(values, vector, rows))
             .collect();
         let mut sums = vec![0.0; self.size];
         for band in bands {
@@ -136,26 +146,28 @@ fn bands(size: usize) -> Vec<Range<usize>> {
     (0..BANDS).map(|k| bound(k)..bound(k + 1)).collect()
 }
 
-/// What some stored rows add to the sums of full rows.
-fn band_sums(values: &[f32], rows: Range<usize>) -> Vec<f64> {
+/// What some stored rows add to a product.
+fn band_product(values: &[f32], vector: &[f64], rows: Range<usize>) -> Vec<f64> {
     /// Sums side by side, so that one addition need not wait for the last.
     const SUMS: usize = 8;
     let mut sums = vec![0.0; rows.end];
     for i in rows {
-        let row = &values[packed_row(i)];
-        let (row, last_of_row) = row.as_chunks::<SUMS>();
+        let (row, last_of_row) = values[packed_row(i)].as_chunks::<SUMS>();
+        let (left, last_left) = vector[..i].as_chunks::<SUMS>();
         let (below, last_below) = sums[..i].as_chunks_mut::<SUMS>();
+        let factor = vector[i];
         let mut partial = [0.0; SUMS];
-        for (values, below) in row.iter().zip(below) {
+        for ((values, left), below) in row.iter().zip(left).zip(below) {
             for k in 0..SUMS {
                 let value = f64::from(values[k]);
-                partial[k] += value;
-                below[k] += value;
+                partial[k] += value * left[k];
+                below[k] += value * factor;
             }
         }
-        for (k, (value, below)) in last_of_row.iter().zip(last_below).enumerate() {
-            partial[k] += f64::from(*value);
-            *below += f64::from(*value);
+        let last = last_of_row.iter().zip(last_left).zip(last_below);
+        for (k, ((&value, left), below)) in last.enumerate() {
+            partial[k] += f64::from(value) * left;
+            *below += f64::from(value) * factor;
         }
         sums[i] += partial.iter().sum::<f64>();
     }
@@ -214,10 +226,14 @@ mod tests {
         fn entries_are_symmetric_and_sum_to_row_sums(size in 0usize..40) {
             let matrix = counting(size);
             let sums = matrix.row_sums();
+            let vector: Vec<f64> = (0..size).map(|j| (j % 7) as f64).collect();
+            let products = matrix.product(&vector);
             for (i, &sum) in sums.iter().enumerate() {
                 // Integers below 2^24: every sum is exact.
                 let direct: f64 = (0..size).map(|j| f64::from(matrix.get(i, j))).sum();
                 prop_assert_eq!(direct, sum);
+                let entry = |j: usize| f64::from(matrix.get(i, j)) * (j % 7) as f64;
+                prop_assert_eq!((0..size).map(entry).sum::<f64>(), products[i]);
                 for j in 0..size {
                     prop_assert_eq!(matrix.get(i, j), matrix.get(j, i));
                 }

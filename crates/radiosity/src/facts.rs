@@ -1,15 +1,16 @@
 //! What the files of the cache hold beside their arrays.
 
 use crate::rows::RowSummary;
-use radiosity_form_factors::{Classes, Estimator, FormFactors, RowFacts};
+use radiosity_form_factors::{Classes, ClosureFacts, Estimator, FormFactors, RowFacts};
 use radiosity_geometry::Mesh;
 use radiosity_solver::Convergence;
 use serde::{Deserialize, Serialize};
 
 pub(crate) const FORM_FACTORS: &str = "form-factors";
+pub(crate) const CLOSURE: &str = "closure";
 pub(crate) const SOLUTION: &str = "solution";
 /// Raise it whenever the layout of anything here changes: it is part of every key.
-pub(crate) const VERSION: u32 = 4;
+pub(crate) const VERSION: u32 = 5;
 
 /// Beside the matrix of form factors.
 #[derive(Debug, Serialize, Deserialize)]
@@ -20,6 +21,7 @@ pub(crate) struct FactorFacts {
     /// Per patch.
     pub(crate) rows: Vec<RowFacts>,
     pub(crate) classes: Option<Classes>,
+    pub(crate) closure: Option<ClosureFacts>,
 }
 
 /// Beside the radiosities.
@@ -32,6 +34,7 @@ impl FactorFacts {
             patches_of_surfaces: patches_of_surfaces(mesh),
             rows: made.rows.clone(),
             classes: made.classes,
+            closure: made.closure,
         }
     }
 
@@ -49,6 +52,7 @@ impl FactorFacts {
             patches_of_surfaces: patches_of_surfaces(mesh),
             rows: vec![row; mesh.patches.len()],
             classes: tells_errors.then(Classes::default),
+            closure: None,
         }
     }
 

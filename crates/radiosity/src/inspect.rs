@@ -1,6 +1,6 @@
 //! What a file of the cache says of itself.
 
-use crate::facts::{FORM_FACTORS, FactorFacts, SOLUTION, SolutionFacts};
+use crate::facts::{CLOSURE, FORM_FACTORS, FactorFacts, SOLUTION, SolutionFacts};
 use crate::rows::RowSummary;
 use radiosity_cache::{Miss, Opened};
 use radiosity_form_factors::{Estimator, RowFacts};
@@ -63,7 +63,7 @@ impl Inspection {
             solution: None,
         };
         match &inspection.stage[..] {
-            FORM_FACTORS => {
+            FORM_FACTORS | CLOSURE => {
                 let (facts, _) = opened.into_artifact()?.into_values()?;
                 inspection.form_factors = Some(FactorInspection::of(&facts, names));
             }
@@ -111,7 +111,7 @@ impl FactorInspection {
             patches: facts.rows.len(),
             surfaces,
             estimator: facts.estimator,
-            rows: RowSummary::new(&facts.rows, facts.classes),
+            rows: RowSummary::new(&facts.rows, facts.classes, facts.closure),
             closure,
             worst: order.iter().take(WORST).map(worst).collect(),
         }

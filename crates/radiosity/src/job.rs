@@ -90,7 +90,7 @@ impl Job<'_> {
             .map_err(|error| interrupted(&error, saved as f64 / needs.pairs as f64))
     }
 
-    fn needs(&self) -> Needs {
+    pub(crate) fn needs(&self) -> Needs {
         Needs::of(self.mesh.patches.len(), self.estimator)
     }
 

@@ -26,6 +26,7 @@
 
 mod artifact;
 pub mod cli;
+mod closed;
 mod error;
 mod export;
 mod factor_export;

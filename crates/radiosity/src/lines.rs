@@ -32,6 +32,15 @@ pub(crate) fn closed_line(rows: &RowSummary) -> String {
     )
 }
 
+/// How rows were made to sum to 1, if they were.
+pub(crate) fn closure_line(rows: &RowSummary) -> Option<String> {
+    let closure = rows.closure?;
+    Some(format!(
+        "rows that see fronts alone were scaled to sum to 1: factors changed by {:.1e} of themselves at most",
+        closure.largest_change
+    ))
+}
+
 /// The estimated errors of rows, if the estimator tells.
 pub(crate) fn error_line(rows: &RowSummary) -> Option<String> {
     let (mean, worst) = rows.estimated_error?;

@@ -1,9 +1,8 @@
 //! The chain of stages, with the cache between them.
 
-use crate::artifact::{How, Origin, Recipe, Sources, obtain, usable};
+use crate::artifact::{Origin, Recipe, Sources, obtain, usable};
 use crate::error::Error;
-use crate::facts::{self, FORM_FACTORS, FactorFacts, SOLUTION, SolutionFacts};
-use crate::job::Job;
+use crate::facts::{self, CLOSURE, FORM_FACTORS, SOLUTION, SolutionFacts};
 use crate::observer::{Observer, Stage};
 use crate::resources::check_image;
 use crate::rows::RowSummary;
@@ -11,11 +10,12 @@ use crate::settings;
 use radiosity_cache::{Artifact, Id, Key, Miss, Store};
 use radiosity_form_factors::{self as form_factors, FormFactors};
 use radiosity_geometry::{self as geometry, Mesh};
-use radiosity_matrix::SymmetricMatrix;
 use radiosity_renderer::{self as renderer, Fields, Pictures};
 use radiosity_scene::{Mode, Scene};
 use radiosity_solver::{self as solver, Solution, System};
 use std::time::Instant;
+
+mod factors;
 
 /// One scene on its way through the stages.
 pub struct Pipeline<'a> {
@@ -26,7 +26,9 @@ pub struct Pipeline<'a> {
     /// Per patch.
     emission: Vec<[f64; 3]>,
     reflectance: Vec<[f64; 3]>,
-    /// The identity of the form factors.
+    /// The identity of the form factors as they are estimated.
+    estimate: Key,
+    /// And of those that are used.
     key: Key,
 }
 
@@ -69,8 +71,14 @@ impl<'a> Pipeline<'a> {
             scene.material(face.surface, face.input_index)
         };
         let inputs = (facts::VERSION, &mesh, settings::estimator(scene));
+        let estimate = Key::of(FORM_FACTORS, form_factors::VERSION, &inputs);
         Ok(Pipeline {
-            key: Key::of(FORM_FACTORS, form_factors::VERSION, &inputs),
+            key: if scene.form_factors.closure {
+                Key::of(CLOSURE, form_factors::VERSION, &estimate.bytes())
+            } else {
+                estimate
+            },
+            estimate,
             scene,
             cache,
             observer,
@@ -90,38 +98,6 @@ impl<'a> Pipeline<'a> {
     /// The patches.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
-    }
-
-    /// Stage 2: the form factors.
-    pub fn form_factors(&self, sources: Sources) -> Result<FormFactorsMade, Error> {
-        let start = Instant::now();
-        let id = self.form_factors_id();
-        let recipe = Recipe {
-            read: |store: &Store| {
-                let (facts, values) = store.read::<FactorFacts>(&id)?.into_values()?;
-                self.stored_form_factors(facts, values).ok_or(Miss::Header)
-            },
-            make: |store: Option<&Store>| {
-                let job = Job {
-                    mesh: &self.mesh,
-                    estimator: settings::estimator(self.scene),
-                    observer: self.observer,
-                };
-                match store {
-                    Some(store) => job.run_journaled(store, &id, sources),
-                    None => Ok((job.run()?, false)),
-                }
-            },
-        };
-        let (form_factors, mut origin) = obtain(self.cache, self.observer, &id, sources, recipe)?;
-        origin.bytes = 4 * form_factors.exchange.values().len() as u64;
-        origin.seconds = start.elapsed().as_secs_f64();
-        let rows = RowSummary::of(&form_factors);
-        Ok(FormFactorsMade {
-            form_factors,
-            rows,
-            origin,
-        })
     }
 
     /// Stage 3: the solution. `sources` is about the solution alone; form factors are taken
@@ -215,12 +191,9 @@ impl<'a> Pipeline<'a> {
         }
     }
 
-    fn form_factors_id(&self) -> Id<'_> {
-        Id {
-            scene: &self.scene.name,
-            stage: FORM_FACTORS,
-            key: self.key,
-        }
+    fn id(&self, stage: &'static str, key: Key) -> Id<'_> {
+        let scene = &self.scene.name;
+        Id { scene, stage, key }
     }
 
     fn solution_id(&self) -> Id<'_> {
@@ -231,27 +204,7 @@ impl<'a> Pipeline<'a> {
             &self.reflectance,
             settings::solver_params(self.scene),
         );
-        Id {
-            scene: &self.scene.name,
-            stage: SOLUTION,
-            key: Key::of(SOLUTION, solver::VERSION, &inputs),
-        }
-    }
-
-    fn stored_form_factors(
-        &self,
-        facts: FactorFacts,
-        values: impl AsRef<[f32]> + Send + Sync + 'static,
-    ) -> Option<FormFactors> {
-        let patches = self.mesh.patches.len();
-        let exchange = SymmetricMatrix::new(patches, values).ok()?;
-        let areas = self.mesh.patches.iter().map(|patch| patch.area).collect();
-        (facts.rows.len() == patches).then_some(FormFactors {
-            areas,
-            exchange,
-            rows: facts.rows,
-            classes: facts.classes,
-        })
+        self.id(SOLUTION, Key::of(SOLUTION, solver::VERSION, &inputs))
     }
 
     fn solve(&self, form_factors: &FormFactors) -> Result<Solution, Error> {
@@ -274,22 +227,5 @@ impl<'a> Pipeline<'a> {
         self.observer.end();
         let name_of = |patch| self.surface_name(patch).to_owned();
         solution.map_err(|error| Error::of_solver(&error, name_of))
-    }
-
-    /// What to say of form factors that nobody asked for.
-    fn untouched_form_factors(&self) -> Origin {
-        let id = self.form_factors_id();
-        let is_there = |store: &&Store| store.read::<FactorFacts>(&id).is_ok();
-        let file = self.cache.filter(is_there).map(|store| store.path(&id));
-        Origin {
-            how: if file.is_some() {
-                How::Cached
-            } else {
-                How::NotNeeded
-            },
-            file,
-            bytes: 4 * radiosity_matrix::packed_len(self.mesh.patches.len()) as u64,
-            seconds: 0.0,
-        }
     }
 }

@@ -3,11 +3,13 @@
 use crate::artifact::{How, Origin};
 use crate::cli::terminal::{Terminal, say};
 use crate::error::Error;
-use crate::lines::{class_line, closed_line, error_line, indented, row_line, scene_line};
+use crate::lines::{
+    class_line, closed_line, closure_line, error_line, indented, row_line, scene_line,
+};
 use crate::pipeline::Pipeline;
 use crate::resources::{bytes, grouped};
 use crate::rows::RowSummary;
-use radiosity_form_factors::Classes;
+use radiosity_form_factors::{Classes, ClosureFacts};
 use radiosity_geometry::Mesh;
 use radiosity_scene::Scene;
 use radiosity_solver::{Energy, Solution};
@@ -69,6 +71,9 @@ struct FormFactorReport {
     /// rows, weighted by area.
     #[serde(skip_serializing_if = "Option::is_none")]
     classes: Option<Classes>,
+    /// How rows were made to sum to 1, if they were.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    closure: Option<ClosureFacts>,
 }
 
 #[derive(Debug, Serialize)]
@@ -124,7 +129,7 @@ impl<'a> Report<'a> {
         self.stage_line("form factors", origin);
         self.terminal
             .line(&indented(&format!("rows {}", row_line(rows))));
-        if let Some(line) = error_line(rows) {
+        for line in error_line(rows).into_iter().chain(closure_line(rows)) {
             self.terminal.line(&indented(&line));
         }
         if pipeline.scene().closed {
@@ -157,6 +162,7 @@ impl<'a> Report<'a> {
             row_error_mean: rows.estimated_error.map(|(mean, _)| mean),
             row_error_max: rows.estimated_error.map(|(_, worst)| worst),
             classes: rows.classes,
+            closure: rows.closure,
         });
     }
 

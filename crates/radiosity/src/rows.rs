@@ -1,6 +1,6 @@
 //! Statistics of the rows of form factors.
 
-use radiosity_form_factors::{Classes, FormFactors, RowFacts};
+use radiosity_form_factors::{Classes, ClosureFacts, FormFactors, RowFacts};
 use serde::{Deserialize, Serialize};
 
 /// Statistics of the row sums.
@@ -26,6 +26,8 @@ pub struct RowSummary {
     /// Pairs by how much they see of each other, and their parts of that error, if the
     /// estimator tells.
     pub classes: Option<Classes>,
+    /// How rows were made to sum to 1, if they were.
+    pub closure: Option<ClosureFacts>,
 }
 
 /// Row sums above this are worth a warning.
@@ -33,10 +35,20 @@ const EXCESSIVE: f64 = 1.001;
 
 impl RowSummary {
     pub(crate) fn of(form_factors: &FormFactors) -> RowSummary {
-        RowSummary::new(&form_factors.rows, form_factors.classes)
+        let FormFactors {
+            rows,
+            classes,
+            closure,
+            ..
+        } = form_factors;
+        RowSummary::new(rows, *classes, *closure)
     }
 
-    pub(crate) fn new(rows: &[RowFacts], classes: Option<Classes>) -> RowSummary {
+    pub(crate) fn new(
+        rows: &[RowFacts],
+        classes: Option<Classes>,
+        closure: Option<ClosureFacts>,
+    ) -> RowSummary {
         let sums = || rows.iter().map(|row| row.fronts);
         let mean =
             |share: fn(&RowFacts) -> f64| rows.iter().map(share).sum::<f64>() / rows.len() as f64;
@@ -57,6 +69,7 @@ impl RowSummary {
             largest,
             estimated_error: estimated_error(rows),
             classes,
+            closure,
         }
     }
 }

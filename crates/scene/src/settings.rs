@@ -42,6 +42,8 @@ pub struct FormFactorSettings {
     /// Where the mode knows its errors: the aimed sum over a row of the absolute errors of its
     /// factors.
     pub tolerance: f64,
+    /// Whether rows whose patches see fronts alone are scaled to sum to 1.
+    pub closure: bool,
 }
 
 /// The estimators by name.
@@ -96,6 +98,8 @@ pub(crate) struct FormFactorTable {
     pairs: Option<Spanned<u32>>,
     seed: Option<u64>,
     tolerance: Option<Spanned<f64>>,
+    #[serde(default)]
+    closure: bool,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -202,6 +206,7 @@ impl FormFactorTable {
                 |x| (1e-6..=0.1).contains(&x),
                 tolerance,
             )?,
+            closure: self.closure,
         })
     }
 }

@@ -30,6 +30,7 @@ impl EstimateArgs {
         set(&mut settings.seed, self.seed);
         set(&mut settings.tolerance, self.tolerance);
         settings.pairs = self.pairs.or(settings.pairs);
+        settings.closure |= self.closure;
         if self.tolerance.is_some() && settings.mode != Mode::Accurate {
             tell("warning: --tolerance is for --mode accurate, and changes nothing");
         }

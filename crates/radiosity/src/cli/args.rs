@@ -65,6 +65,9 @@ pub struct EstimateArgs {
     /// Seed of the random points of monte-carlo
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
+    /// Scale the factors so that rows sum to 1 where patches see fronts alone; reciprocity is kept
+    #[arg(long)]
+    pub closure: bool,
     #[command(flatten)]
     #[allow(missing_docs, reason = "a comment here would replace the help text")]
     pub cache: CacheArgs,

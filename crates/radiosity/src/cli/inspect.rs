@@ -5,7 +5,7 @@ use super::site::Site;
 use super::terminal::say;
 use crate::error::Error;
 use crate::inspect::{CLOSURE_BOUNDS, FactorInspection, Inspection, SolutionInspection, WorstRow};
-use crate::lines::{class_line, error_line, indented, labelled, row_line};
+use crate::lines::{class_line, closure_line, error_line, indented, labelled, row_line};
 use crate::resources::{bytes, grouped};
 use radiosity_cache::{Miss, open};
 use radiosity_form_factors::Estimator;
@@ -86,7 +86,10 @@ fn factor_lines(found: &FactorInspection) -> Vec<String> {
         labelled("form factors", &made),
         labelled("rows", &row_line(&found.rows)),
     ];
-    lines.extend(error_line(&found.rows).map(|line| indented(&line)));
+    let more = error_line(&found.rows)
+        .into_iter()
+        .chain(closure_line(&found.rows));
+    lines.extend(more.map(|line| indented(&line)));
     let classes = found.rows.classes.as_ref();
     lines.extend(classes.map(|c| indented(&class_line(c, found.patches))));
     lines.push(labelled(

@@ -1,0 +1,105 @@
+//! Rows that sum to 1, for those who need an enclosure that is closed to the last digit.
+//!
+//! Of all symmetric matrices `S'_ij = d_i S_ij d_j` the one is taken whose rows sum as they should:
+//! reciprocity is kept, and no factor becomes negative. It is found by the iteration
+//! `d_i <- sqrt(d_i t_i / sum_j S_ij d_j)` (P. Knight, D. Ruiz & B. Ucar, "A Symmetry Preserving
+//! Algorithm for Matrix Scaling", 2014).
+
+use crate::{FormFactors, RowFacts};
+use radiosity_matrix::{SymmetricMatrix, packed_row};
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// What makes the rows of form factors sum to 1.
+#[derive(Clone, Debug)]
+pub struct Closure {
+    /// By patch.
+    scale: Vec<f64>,
+    facts: ClosureFacts,
+}
+
+/// How rows were closed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ClosureFacts {
+    /// No factor has changed by more, in relation to itself.
+    pub largest_change: f64,
+    /// The largest distance of a row sum from what it should be, in relation to that.
+    pub residual: f64,
+}
+
+/// Rows are closed to this, or the iteration has gone on for so long.
+const RESIDUAL: f64 = 1e-9;
+const MOST_ITERATIONS: usize = 1000;
+
+impl Closure {
+    /// Rows whose patches see nothing but fronts, as far as rays tell, are to sum to 1; all others
+    /// keep their sums.
+    pub fn of(form_factors: &FormFactors) -> Closure {
+        let total: f64 = form_factors.areas.iter().sum();
+        let target = |(row, area): (&RowFacts, &f64)| {
+            let is_closed = row.backs == 0.0 && row.background == 0.0 && row.fronts > 0.0;
+            area / total * if is_closed { 1.0 } else { row.fronts }
+        };
+        let rows = form_factors.rows.iter().zip(&form_factors.areas);
+        let targets: Vec<f64> = rows.map(target).collect();
+        let mut scale = vec![1.0; targets.len()];
+        let mut residual = f64::INFINITY;
+        for _ in 0..MOST_ITERATIONS {
+            let sums = form_factors.exchange.product(&scale);
+            residual = 0.0;
+            for ((d, sum), target) in scale.iter_mut().zip(&sums).zip(&targets) {
+                // What sees nothing cannot be scaled.
+                if *sum > 0.0 && *target > 0.0 {
+                    residual = f64::max(residual, (*d * sum / target - 1.0).abs());
+                    *d = (*d * target / sum).sqrt();
+                }
+            }
+            if residual <= RESIDUAL {
+                break;
+            }
+        }
+        let largest_change = largest_change(&scale);
+        Closure {
+            scale,
+            facts: ClosureFacts {
+                largest_change,
+                residual,
+            },
+        }
+    }
+
+    /// The form factors with all values scaled: `exchange` has those of [`Closure::apply`].
+    pub fn complete(&self, form_factors: &FormFactors, exchange: SymmetricMatrix) -> FormFactors {
+        let total: f64 = form_factors.areas.iter().sum();
+        let sums = exchange.row_sums();
+        let row = |(i, row): (usize, &RowFacts)| RowFacts {
+            fronts: sums[i] * total / form_factors.areas[i],
+            ..*row
+        };
+        FormFactors {
+            areas: form_factors.areas.clone(),
+            exchange,
+            rows: form_factors.rows.iter().enumerate().map(row).collect(),
+            classes: form_factors.classes,
+            closure: Some(self.facts),
+        }
+    }
+
+    /// Scales the packed values of some rows.
+    pub fn apply(&self, rows: Range<usize>, values: &mut [f32]) {
+        let start = packed_row(rows.start).start;
+        for i in rows {
+            let row = packed_row(i);
+            let row = &mut values[row.start - start..row.end - start];
+            for (value, d) in row.iter_mut().zip(&self.scale) {
+                *value = (f64::from(*value) * self.scale[i] * d) as f32;
+            }
+        }
+    }
+}
+
+fn largest_change(scale: &[f64]) -> f64 {
+    let most = scale.iter().copied().fold(1.0, f64::max);
+    let least = scale.iter().copied().fold(1.0, f64::min);
+    (most * most - 1.0).max(1.0 - least * least)
+}

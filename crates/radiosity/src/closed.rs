@@ -1,0 +1,71 @@
+//! Form factors whose rows sum to 1: a variant of those that were estimated, and a file of its own.
+
+use crate::artifact::usable;
+use crate::error::Error;
+use crate::facts::FactorFacts;
+use crate::job::Job;
+use radiosity_cache::{CacheError, Draft, Id, Store};
+use radiosity_form_factors::{Closure, ClosureFacts, FormFactors};
+use radiosity_matrix::{SymmetricMatrix, packed_len};
+use std::ops::Range;
+
+/// Values that are scaled at a time.
+const VALUES_AT_A_TIME: usize = 1 << 22;
+
+/// Closes form factors, in their file if there is a cache; says whether it is there.
+pub(crate) fn closed(
+    job: &Job<'_>,
+    raw: &FormFactors,
+    store: Option<&Store>,
+    id: &Id<'_>,
+) -> Result<(FormFactors, bool), Error> {
+    let closure = Closure::of(raw);
+    let facts = |made: &FormFactors| FactorFacts::new(job.mesh, job.estimator, made);
+    let mut blank = facts(raw);
+    blank.closure = Some(ClosureFacts::default());
+    let begin = |store: &Store| {
+        job.needs().check_disk(store, 0)?;
+        let count = raw.exchange.values().len() as u64;
+        let draft = Draft::begin(store, id, &blank, count);
+        Ok::<_, Error>(usable(draft, job.observer, id))
+    };
+    let Some(mut draft) = store.map(begin).transpose()?.flatten() else {
+        // The first is in memory already, so there must be room for another.
+        job.needs().check_memory()?;
+        let mut values = raw.exchange.values().to_vec();
+        closure.apply(0..raw.exchange.size(), &mut values);
+        let exchange = SymmetricMatrix::new(raw.exchange.size(), values);
+        let exchange = exchange.expect("they are as many as before");
+        return Ok((closure.complete(raw, exchange), false));
+    };
+    write(&closure, raw, &mut draft)?;
+    let exchange = SymmetricMatrix::new(raw.exchange.size(), draft.values()?);
+    let made = closure.complete(raw, exchange.expect("all rows are written"));
+    draft.finish(&facts(&made))?;
+    Ok((made, true))
+}
+
+/// Writes all rows, scaled, without a second copy in memory.
+fn write(closure: &Closure, raw: &FormFactors, draft: &mut Draft) -> Result<(), CacheError> {
+    let mut values = Vec::new();
+    for rows in runs(raw.exchange.size()) {
+        let range = packed_len(rows.start)..packed_len(rows.end);
+        values.clear();
+        values.extend_from_slice(&raw.exchange.values()[range]);
+        closure.apply(rows, &mut values);
+        draft.append(&values)?;
+    }
+    Ok(())
+}
+
+/// All rows, some at a time.
+fn runs(size: usize) -> impl Iterator<Item = Range<usize>> {
+    let mut first = 0;
+    std::iter::from_fn(move || {
+        let start = first;
+        while first < size && packed_len(first) - packed_len(start) < VALUES_AT_A_TIME {
+            first += 1;
+        }
+        (start < size).then_some(start..first)
+    })
+}
