@@ -1,6 +1,9 @@
 //! The whole chain against path-traced truth.
 
-use radiosity_tests::{picture_errors, pipeline, radiosity_errors, shipped, solve};
+use radiosity::geometry::Divisions;
+use radiosity::radiosity_table;
+use radiosity::scene::Mode;
+use radiosity_tests::{picture_errors, pipeline, radiosity_errors, shipped, solve, table_errors};
 
 /// What the course program is known to reach on its scene, to a tenth of a point: RMSE 4.50 %
 /// and bias +1.63 % of the radiosities, smooth picture 5.9 % and constant 9.0 % away from edges.
@@ -35,6 +38,35 @@ fn the_course_is_reproduced() {
         (smooth.rmse_percent - 5.9).abs() < 0.1,
         "smooth picture {smooth:?}"
     );
+}
+
+/// What patches of constant radiosity cost is all that is left: 1.24 % and 0.58 % with factors that are
+/// nearly exact, and 0.39 % over the larger cells.
+#[test]
+fn accurate_factors_leave_the_error_of_the_patches() {
+    let mut scene = shipped("cornell");
+    scene.form_factors.mode = Mode::Accurate;
+    scene.form_factors.tolerance = 2e-3;
+    let tables = [12, 24].map(|n| {
+        scene.divisions = Divisions::uniform(n);
+        let pipeline = pipeline(&scene);
+        radiosity_table(&scene, pipeline.mesh(), &solve(&pipeline))
+    });
+    let coarse = tables[1].coarsened(6).unwrap();
+    for (found, n, most, bias) in [
+        (&tables[0], 12, 1.3, 0.45),
+        (&tables[1], 24, 0.65, 0.25),
+        (&coarse, 4, 0.45, 0.25),
+    ] {
+        let errors = table_errors(&scene, found, n);
+        let rmse = errors.rmse_percent_without_noise();
+        println!(
+            "{n} x {n}: RMSE {rmse:.3} %, bias {:+.3} %",
+            errors.bias_percent
+        );
+        assert!(rmse <= most, "{n}: {errors:?}");
+        assert!(errors.bias_percent.abs() <= bias, "{n}: {errors:?}");
+    }
 }
 
 /// The same surfaces as triangles give the same picture. Shading triangles must not cost

@@ -4,7 +4,7 @@
 mod measure;
 mod reference;
 
-pub use measure::{picture_errors, radiosity_errors};
+pub use measure::{picture_errors, radiosity_errors, table_errors};
 pub use reference::{radiance, reference_table, regions};
 
 use radiosity::scene::{Scene, load};

@@ -1,8 +1,8 @@
 //! The measures of error that the reference data defines, on results that were never written.
 
 use crate::reference::{radiance, reference_table, regions};
-use radiosity::compare::{Errors, compare_pictures, compare_tables};
-use radiosity::geometry::PixelFilter;
+use radiosity::compare::{Errors, Table, compare_pictures, compare_tables};
+use radiosity::geometry::{Divisions, PixelFilter, subdivide};
 use radiosity::renderer::Image;
 use radiosity::scene::Scene;
 use radiosity::solver::Solution;
@@ -14,8 +14,14 @@ const EXPOSURE: f64 = 4.0;
 /// The errors of radiosities of 12 x 12 patches against the table.
 pub fn radiosity_errors(scene: &Scene, pipeline: &Pipeline<'_>, solution: &Solution) -> Errors {
     let found = radiosity_table(scene, pipeline.mesh(), solution);
-    let cells = cells(scene, pipeline.mesh());
-    let errors = compare_tables(&cells, &found, &reference_table(12));
+    table_errors(scene, &found, 12)
+}
+
+/// The errors of radiosities of `n x n` patches against the table of so many.
+pub fn table_errors(scene: &Scene, found: &Table, n: u32) -> Errors {
+    let mesh = subdivide(&scene.geometry, Divisions::uniform(n));
+    let mesh = mesh.unwrap_or_else(|error| panic!("{error}"));
+    let errors = compare_tables(&cells(scene, &mesh), found, &reference_table(n));
     let errors = errors.unwrap_or_else(|error| panic!("{error}"));
     errors[errors.len() - 1].1
 }

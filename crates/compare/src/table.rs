@@ -1,6 +1,6 @@
 //! Radiosities by patch, as CSV.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// One patch of a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +25,47 @@ pub struct Table {
 }
 
 impl Table {
+    /// The means over blocks of `factor x factor` cells of each surface, which are of one size:
+    /// cells of parallelograms are. Without standard errors, since those of neighbours may hang
+    /// together.
+    pub fn coarsened(&self, factor: u32) -> Result<Table, TableError> {
+        let mut sums: Vec<(Row, u32)> = Vec::new();
+        let mut places = HashMap::new();
+        for row in &self.rows {
+            let cell = row.cell.map(|index| index / factor.max(1));
+            let place = *places
+                .entry((row.surface.as_str(), cell))
+                .or_insert_with(|| {
+                    let standard_error = None;
+                    let radiosity = [0.0; 3];
+                    let blank = Row {
+                        cell,
+                        radiosity,
+                        standard_error,
+                        ..row.clone()
+                    };
+                    sums.push((blank, 0));
+                    sums.len() - 1
+                });
+            let (sum, count) = &mut sums[place];
+            *count += 1;
+            sum.radiosity = std::array::from_fn(|c| sum.radiosity[c] + row.radiosity[c]);
+        }
+        let mean = |(mut sum, count): (Row, u32)| {
+            if count != factor * factor {
+                return Err(TableError::Block {
+                    line: sum.line,
+                    factor,
+                    count,
+                });
+            }
+            sum.radiosity = sum.radiosity.map(|total| total / f64::from(count));
+            Ok(sum)
+        };
+        let rows = sums.into_iter().map(mean).collect::<Result<_, _>>()?;
+        Ok(Table { rows })
+    }
+
     /// The table as [`parse_table`] reads it, radiosities rounded to single precision and
     /// standard errors to three digits; without those, if not all rows have one.
     pub fn to_csv(&self) -> Vec<u8> {
@@ -64,6 +105,16 @@ pub enum TableError {
         line: u64,
         /// What is wrong with it.
         problem: String,
+    },
+    /// Cells cannot be averaged in blocks.
+    #[error("line {line}: the block of {factor} x {factor} cells that begins here has {count}")]
+    Block {
+        /// Counted from 1.
+        line: u64,
+        /// Cells along each edge of a block.
+        factor: u32,
+        /// How many were found.
+        count: u32,
     },
     /// A patch of the scene is in one table only.
     #[error("{table} lacks patch {},{} of `{surface}`: were both made from the same patches?", cell[0], cell[1])]

@@ -1,11 +1,11 @@
 //! The measure for tables of radiosities.
 
 use proptest::prelude::*;
-use radiosity_compare::{Cell, TableError, compare_tables, parse_table};
+use radiosity_compare::{Cell, Table, TableError, compare_tables, parse_table};
 
 const HEADER: &str = "surface,ia,ib,B_r,B_g,B_b\n";
 
-fn table(rows: &str) -> radiosity_compare::Table {
+fn table(rows: &str) -> Table {
     parse_table(format!("{HEADER}{rows}").as_bytes()).unwrap()
 }
 
@@ -113,6 +113,31 @@ fn the_noise_of_the_reference_is_told() {
     assert!((errors.noise_percent.unwrap() - noise).abs() < 1e-9);
     let without = (errors.rmse_percent.powi(2) - noise.powi(2)).sqrt();
     assert!((errors.rmse_percent_without_noise() - without).abs() < 1e-9);
+}
+
+#[test]
+fn blocks_of_cells_are_averaged() {
+    let rows = (0..4).flat_map(|a| (0..2).map(move |b| format!("wall,{a},{b},{a},{b},1\n")));
+    let text = format!(
+        "{HEADER}{}floor,0,0,5,5,5\nfloor,0,1,7,7,7\n",
+        rows.collect::<String>()
+    );
+    let table = parse_table(text.as_bytes()).unwrap();
+    let error = table.coarsened(2).unwrap_err().to_string();
+    assert_eq!(
+        error,
+        "line 10: the block of 2 x 2 cells that begins here has 2"
+    );
+    let wall = Table {
+        rows: table.rows[..8].to_vec(),
+    };
+    let coarse = wall.coarsened(2).unwrap().rows;
+    let found: Vec<_> = coarse.iter().map(|row| (row.cell, row.radiosity)).collect();
+    assert_eq!(
+        found,
+        [([0, 0], [0.5, 0.5, 1.0]), ([1, 0], [2.5, 0.5, 1.0])]
+    );
+    assert_eq!(table.coarsened(1).unwrap(), table);
 }
 
 #[test]

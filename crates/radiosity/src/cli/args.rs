@@ -272,6 +272,10 @@ pub struct CompareCommand {
     /// own patches]
     #[arg(long, value_name = "N", value_parser = parse_counts)]
     pub patches: Option<(u32, u32)>,
+    /// Average N x N cells of the first table: compare 24 x 24 patches with 4 x 4 by --patches 4
+    /// --coarsen 6
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub coarsen: Option<u32>,
     /// Factor from radiance to brightness: pixels of the reference that exceed 1 are left out,
     /// and levels are divided by it [default: the scene's, or 1]
     #[arg(long, value_name = "X", value_parser = parse_positive, allow_negative_numbers = true)]

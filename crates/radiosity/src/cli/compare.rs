@@ -76,8 +76,8 @@ pub(crate) fn run(args: &CompareCommand, site: &Site) -> Result<(), Error> {
 }
 
 fn pictures(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Error> {
-    if args.patches.is_some() {
-        let problem = "--patches is for tables, not for pictures";
+    if args.patches.is_some() || args.coarsen.is_some() {
+        let problem = "--patches and --coarsen are for tables, not for pictures";
         return Err(Error::Input(problem.to_owned()));
     }
     let image = scene.map(|scene| &scene.image);
@@ -152,6 +152,10 @@ fn tables(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Erro
     let cells = cells(scene, &table_mesh(scene, args.patches)?);
     let table = |path: &Path| parse_table(&read(path)?).map_err(at(path));
     let (found, reference) = (table(&args.found)?, table(&args.reference)?);
+    let found = match args.coarsen {
+        Some(factor) => found.coarsened(factor).map_err(at(&args.found))?,
+        None => found,
+    };
     let named = compare_tables(&cells, &found, &reference);
     let named = named.map_err(|error| Error::Input(error.to_string()))?;
     let left_out = surfaces_left_out(&cells, &named);
