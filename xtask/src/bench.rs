@@ -2,6 +2,7 @@
 
 mod baseline;
 mod form_factors;
+mod machine;
 mod truth;
 mod view_factors;
 

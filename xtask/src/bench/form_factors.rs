@@ -1,7 +1,7 @@
 //! How fast form factors are, and what the accurate ones cost, side by side with the course's.
 
 use super::baseline::Baseline;
-use super::{Figure, Target};
+use super::{Figure, Target, machine};
 use radiosity::form_factors::{Estimator, estimate};
 use radiosity::geometry::{Divisions, Mesh, subdivide};
 use radiosity::scene::{Mode, Scene, load};
@@ -21,6 +21,9 @@ const SIZES: [(u32, u32, Option<f64>); 4] = [
 const MOST_SECONDS: f64 = 4.0;
 /// The course program's own rate.
 const COURSE_RATE: f64 = 8.5e6;
+/// Multiplications, additions and divisions that a pair of points costs: a squared distance, half a
+/// division and five products.
+const OPERATIONS: f64 = 13.0;
 /// Every so many rows are enough to know the baseline's rate.
 const ROW_STRIDE: usize = 12;
 
@@ -39,7 +42,15 @@ pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
         "million point pairs/s, one thread",
         Some(Target::AtLeast(1e-6 * COURSE_RATE)),
     )];
-    figures.extend(sizes(&scene, rate)?);
+    let peak = machine::peak();
+    figures.push(Figure::new(
+        "form_factors.peak".to_owned(),
+        Some(1e-9 * peak),
+        "billion multiplications and additions/s, one thread",
+        None,
+    ));
+    figures.extend(sizes(&scene, rate, peak)?);
+    figures.extend(instruction_sets(root));
     figures.extend(accuracy(&mut scene, point_pairs(&mesh) / rate)?);
     for figure in &figures {
         if json {
@@ -92,7 +103,7 @@ fn best_seconds(mesh: &Mesh, estimator: Estimator, runs: u32) -> f64 {
 }
 
 /// The regular rule as patches grow more.
-fn sizes(scene: &Scene, rate: f64) -> Result<Vec<Figure>, Error> {
+fn sizes(scene: &Scene, rate: f64, peak: f64) -> Result<Vec<Figure>, Error> {
     let mut figures = Vec::new();
     let mut last: Option<(f64, f64)> = None;
     for (divisions, runs, promise) in SIZES {
@@ -112,8 +123,14 @@ fn sizes(scene: &Scene, rate: f64) -> Result<Vec<Figure>, Error> {
             "times the baseline",
             promise.map(Target::AtLeast),
         );
+        let operations = OPERATIONS * point_pairs(&mesh) / seconds;
+        let share = 100.0 * operations / (peak * rayon::current_num_threads() as f64);
+        add("share_of_peak", share, "%, had all pairs been tried", None);
         let bytes = 4.0 * patches * (patches - 1.0) / 2.0;
         add("matrix", 1e-6 * bytes, "MB", None);
+        if let Some(most) = machine::most_memory() {
+            add("memory", 1e-6 * most, "MB at most", None);
+        }
         if let Some((fewer, shorter)) = last {
             let exponent = (seconds / shorter).ln() / (patches / fewer).ln();
             add(
@@ -126,6 +143,18 @@ fn sizes(scene: &Scene, rate: f64) -> Result<Vec<Figure>, Error> {
         last = Some((patches, seconds));
     }
     Ok(figures)
+}
+
+/// The same on each instruction set.
+fn instruction_sets(root: &Path) -> Vec<Figure> {
+    let divisions = SIZES[1].0;
+    let scene = root.join("scenes/cornell.toml");
+    let figure = |(set, seconds): (&str, Option<f64>)| {
+        let name = format!("form_factors.regular.{divisions}.{set}");
+        Figure::new(name, seconds, "s, as a program of its own", None)
+    };
+    let seconds = machine::seconds_by_set(&scene, divisions);
+    seconds.into_iter().map(figure).collect()
 }
 
 /// The accurate mode against the course's rule, by time and by radiosities.
