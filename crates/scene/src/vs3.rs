@@ -106,7 +106,22 @@ fn shape(
         check_lies_on(source, other, entry, normal)?;
     }
     let holes: Vec<&[DVec3]> = on_it.iter().map(|other| &other.corners[..]).collect();
-    let rest = holes::remainder(&entry.corners, normal, &holes);
+    let size = size(&entry.corners);
+    let rest = holes::remainder(&entry.corners, normal, &holes, ON_PLANE * size);
+    let covered: f64 = holes.iter().map(|hole| holes::area(hole, normal)).sum();
+    let left = Shape::Mesh(rest.clone()).polygons().unwrap_or_default();
+    let left: f64 = left.iter().map(|(_, polygon)| polygon.area()).sum();
+    // Each hole may be off by the tolerance along its edges.
+    let tolerance = 8.0 * ON_PLANE * size * size * holes.len() as f64;
+    if covered + left > holes::area(&entry.corners, normal) + tolerance {
+        let title = format!(
+            "the surfaces on surface {} overlap each other",
+            entry.number
+        );
+        let complaint = Complaint::new(title, "their base")
+            .help("cut them so that they lie side by side, or make one the base of the other");
+        return Err(source.error_in_line(entry.line, &complaint));
+    }
     Ok((!rest.faces.is_empty()).then_some(Shape::Mesh(rest)))
 }
 
@@ -126,12 +141,7 @@ fn check_lies_on(
         Err(source.error_in_line(entry.line, &complaint))
     };
     let from = base.corners[0];
-    let size = base
-        .corners
-        .iter()
-        .map(|c| c.distance(from))
-        .fold(0.0, f64::max);
-    let tolerance = ON_PLANE * size;
+    let tolerance = ON_PLANE * size(&base.corners);
     let is_on_plane = |corner: &DVec3| normal.dot(corner - from).abs() <= tolerance;
     if !entry.corners.iter().all(is_on_plane) {
         return complain("is not in the plane of", "move it there, or write base 0");
@@ -154,6 +164,12 @@ fn check_lies_on(
         return complain("reaches beyond", "cut it in two, or write base 0");
     }
     Ok(())
+}
+
+/// From the first corner to the farthest.
+fn size(corners: &[DVec3]) -> f64 {
+    let distances = corners.iter().map(|corner| corner.distance(corners[0]));
+    distances.fold(0.0, f64::max)
 }
 
 /// A name for each surface that no other has: with its number where names repeat.

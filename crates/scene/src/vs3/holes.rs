@@ -2,18 +2,22 @@
 
 use radiosity_geometry::{DVec3, PolygonMesh};
 
-/// Parts smaller than this share of the whole are rounding.
-const NEGLIGIBLE: f64 = 1e-12;
-
 /// The part of a planar convex polygon that other ones in its plane, turning the same way, do
-/// not cover, as faces of three or four corners.
-pub(super) fn remainder(whole: &[DVec3], normal: DVec3, holes: &[&[DVec3]]) -> PolygonMesh {
-    let least = NEGLIGIBLE * area(whole, normal);
+/// not cover, as faces of three or four corners. What is narrower than `tolerance` is rounding.
+pub(super) fn remainder(
+    whole: &[DVec3],
+    normal: DVec3,
+    holes: &[&[DVec3]],
+    tolerance: f64,
+) -> PolygonMesh {
     let mut pieces = vec![whole.to_vec()];
     for hole in holes {
-        let around = |piece: Vec<DVec3>| outside(piece, hole, normal);
+        let around = |piece: Vec<DVec3>| outside(piece, hole, normal, tolerance);
         pieces = pieces.into_iter().flat_map(around).collect();
-        pieces.retain(|piece| area(piece, normal) > least);
+        pieces = pieces
+            .iter()
+            .filter_map(|piece| tidy(piece, normal, tolerance))
+            .collect();
     }
     let mut mesh = PolygonMesh::default();
     for piece in pieces {
@@ -33,12 +37,12 @@ pub(super) fn remainder(whole: &[DVec3], normal: DVec3, holes: &[&[DVec3]]) -> P
 
 /// What of a polygon is outside of a hole: what is beyond its first edge, of the rest what is
 /// beyond the second, and so on.
-fn outside(piece: Vec<DVec3>, hole: &[DVec3], normal: DVec3) -> Vec<Vec<DVec3>> {
+fn outside(piece: Vec<DVec3>, hole: &[DVec3], normal: DVec3, tolerance: f64) -> Vec<Vec<DVec3>> {
     let mut beyond = Vec::new();
     let mut rest = piece;
     for (k, &corner) in hole.iter().enumerate() {
-        let inward = normal.cross(hole[(k + 1) % hole.len()] - corner);
-        let (left, right) = split(&rest, corner, inward);
+        let along = (hole[(k + 1) % hole.len()] - corner).normalize_or_zero();
+        let (left, right) = split(&rest, corner, normal.cross(along), tolerance);
         beyond.extend(right);
         match left {
             Some(left) => rest = left,
@@ -48,22 +52,17 @@ fn outside(piece: Vec<DVec3>, hole: &[DVec3], normal: DVec3) -> Vec<Vec<DVec3>> 
     beyond
 }
 
-/// Both sides of a line: the one that `inward` points to, and the other.
+/// Both sides of a line: the one that the unit vector `inward` points to, and the other. Corners
+/// nearer to the line than `tolerance` are on it.
 fn split(
     polygon: &[DVec3],
     on_line: DVec3,
     inward: DVec3,
+    tolerance: f64,
 ) -> (Option<Vec<DVec3>>, Option<Vec<DVec3>>) {
-    let size = polygon
-        .iter()
-        .map(|p| p.distance(polygon[0]))
-        .fold(0.0, f64::max);
-    // Corners that lie on the line but for rounding, do.
-    let on = 1e-12 * size * inward.length();
     let heights = polygon.iter().map(|p| inward.dot(p - on_line));
-    let heights: Vec<f64> = heights
-        .map(|h| if h.abs() <= on { 0.0 } else { h })
-        .collect();
+    let on_or_off = |h: f64| if h.abs() <= tolerance { 0.0 } else { h };
+    let heights: Vec<f64> = heights.map(on_or_off).collect();
     let (mut left, mut right) = (Vec::new(), Vec::new());
     for (k, (&corner, &height)) in polygon.iter().zip(&heights).enumerate() {
         let next = (k + 1) % polygon.len();
@@ -84,16 +83,43 @@ fn split(
     (has(1.0).then_some(left), has(-1.0).then_some(right))
 }
 
-fn area(polygon: &[DVec3], normal: DVec3) -> f64 {
+/// A polygon without the corners that lie on the line between their neighbours; none if it is a
+/// sliver.
+fn tidy(polygon: &[DVec3], normal: DVec3, tolerance: f64) -> Option<Vec<DVec3>> {
+    let mut corners = polygon.to_vec();
+    let mut k = 0;
+    while corners.len() >= 3 && k < corners.len() {
+        let [before, after] =
+            [corners.len() - 1, 1].map(|step| corners[(k + step) % corners.len()]);
+        let across = after - before;
+        let height = across.cross(corners[k] - before).length();
+        if height <= tolerance * across.length() {
+            corners.remove(k);
+            // Its neighbours may now be on a line.
+            k = 0;
+        } else {
+            k += 1;
+        }
+    }
+    let edges = (0..corners.len()).map(|k| corners[k].distance(corners[(k + 1) % corners.len()]));
+    let longest = edges.fold(0.0, f64::max);
+    let is_sliver = corners.len() < 3 || 2.0 * area(&corners, normal) <= tolerance * longest;
+    (!is_sliver).then_some(corners)
+}
+
+/// The area of a polygon, positive if it turns counter-clockwise around the normal.
+pub(super) fn area(polygon: &[DVec3], normal: DVec3) -> f64 {
+    let from = polygon[0];
     let around = polygon
         .windows(2)
-        .map(|edge| (edge[0] - polygon[0]).cross(edge[1] - polygon[0]));
+        .map(|edge| (edge[0] - from).cross(edge[1] - from));
     0.5 * normal.dot(around.sum::<DVec3>())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::vs3::ON_PLANE;
     use proptest::prelude::*;
     use radiosity_geometry::Shape;
 
@@ -110,7 +136,7 @@ mod tests {
     /// The faces that remain of the unit square, checked to be usable.
     fn faces(holes: &[Vec<DVec3>]) -> Vec<Vec<DVec3>> {
         let holes: Vec<&[DVec3]> = holes.iter().map(Vec::as_slice).collect();
-        let mesh = remainder(&rectangle(0.0, 0.0, 1.0, 1.0), DVec3::Z, &holes);
+        let mesh = remainder(&rectangle(0.0, 0.0, 1.0, 1.0), DVec3::Z, &holes, ON_PLANE);
         let shape = Shape::Mesh(mesh);
         let polygons = shape.polygons().unwrap();
         polygons
@@ -156,11 +182,43 @@ mod tests {
                 &rectangle(0.0, 0.0, 0.5, 1.0),
                 &rectangle(0.5, 0.0, 0.5, 1.0),
             ],
+            ON_PLANE,
         );
         assert!(mesh.faces.is_empty());
     }
 
     proptest! {
+        /// As files write them: a wall with a door that reaches to its edge and a window beside it, at
+        /// any angle, in any number of digits.
+        #[test]
+        fn walls_of_rounded_numbers_have_no_slivers(
+            angle in 0.0f64..6.3, digits in 6i32..12, door in 0.1f64..0.5, offset in 0.0f64..1.0,
+        ) {
+            let (sin, cos) = angle.sin_cos();
+            let rounded = |x: f64| (x * 10f64.powi(digits)).round() / 10f64.powi(digits);
+            let turned = |p: DVec3| {
+                let at = DVec3::new(5.0 * (cos * p.x + offset), 5.0 * sin * p.x, 2.7 * p.y);
+                at.to_array().map(rounded).into()
+            };
+            let part = |x, y, width, height| -> Vec<DVec3> {
+                rectangle(x, y, width, height).into_iter().map(turned).collect()
+            };
+            let wall = part(0.0, 0.0, 1.0, 1.0);
+            let holes = [part(0.1, 0.0, door, 0.8), part(0.1 + door, 0.4, 0.3, 0.4)];
+            let normal = (wall[1] - wall[0]).cross(wall[3] - wall[0]).normalize();
+            let holes: Vec<&[DVec3]> = holes.iter().map(Vec::as_slice).collect();
+            let mesh = remainder(&wall, normal, &holes, 5.0 * ON_PLANE);
+            let polygons = Shape::Mesh(mesh).polygons().unwrap();
+            let sum: f64 = polygons.iter().map(|(_, polygon)| polygon.area()).sum();
+            let expected = 13.5 * (1.0 - 0.8 * door - 0.12);
+            // As many edges as there may be, each off by the tolerance.
+            prop_assert!((sum - expected).abs() < 20.0 * 5.0 * 5.0 * ON_PLANE, "{sum} {expected}");
+            for (_, polygon) in polygons {
+                let width = 2.0 * polygon.area() / polygon.longest_edge();
+                prop_assert!(width > 1e-3, "{width}");
+            }
+        }
+
         #[test]
         fn the_rest_and_disjoint_holes_make_the_whole(
             x in 0.0f64..0.4, y in 0.0f64..0.9, width in 0.01f64..0.1, height in 0.01f64..0.1,

@@ -22,6 +22,8 @@ pub(super) struct Entry {
     pub(super) name: String,
     pub(super) kind: Kind,
     pub(super) corners: ArrayVec<DVec3, 4>,
+    /// The number of what it lies on, or 0.
+    base_number: u32,
     /// The entry that it lies on.
     pub(super) base: Option<usize>,
     /// The entry that it is combined with.
@@ -51,40 +53,40 @@ struct Words<'a> {
 
 pub(super) fn read(source: &Source<'_>) -> Result<File, SceneError> {
     let mut file = File::default();
-    for (index, line) in source.text.lines().enumerate() {
-        let is_comment = |word: &&str| word.starts_with(['!', '/']);
-        let words: Vec<&str> = line
-            .split_whitespace()
-            .take_while(|w| !is_comment(w))
-            .collect();
-        let mut words = Words {
-            source,
-            line: index + 1,
-            words: words.into_iter(),
-        };
+    let text = source.text.trim_start_matches('\u{feff}');
+    for (index, line) in text.lines().enumerate() {
+        let mut words = Words::of(source, index + 1, line);
         let Some(first) = words.words.next() else {
             continue;
         };
-        match &first.to_ascii_uppercase()[..] {
-            "T" => {}
-            "C" => file.controls(words),
-            "F" => format(&mut words)?,
-            "V" => file.vertex(words)?,
-            "S" => file.surface(words, Kind::Surface)?,
-            "O" => file.surface(words, Kind::Obstruction)?,
-            "*" | "E" => break,
-            "M" | "N" => {
+        // View3D looks at the first letter alone.
+        match first
+            .chars()
+            .next()
+            .unwrap_or_default()
+            .to_ascii_uppercase()
+        {
+            'T' | 'X' => {}
+            'C' => file.controls(words),
+            'F' => format(&mut words)?,
+            'V' => file.vertex(words)?,
+            'S' => file.surface(words, Kind::Surface)?,
+            'O' => file.surface(words, Kind::Obstruction)?,
+            // The last is how DOS ends a file.
+            '*' | 'E' | '\u{1a}' => break,
+            'M' | 'N' => {
                 let title = "mask and null surfaces are not supported";
                 let help = "write S or O, and cut the surface so that no mask is needed";
                 return Err(words.error(title, "this line", help));
             }
-            other => {
-                let title = format!("`{other}` is not known");
+            _ => {
+                let title = format!("`{first}` is not known");
                 let help = "lines begin with T, C, F, V, S, O, E or *; comments with ! or /";
                 return Err(words.error(&title, "this line", help));
             }
         }
     }
+    file.find_bases(source)?;
     if file.entries.iter().any(|entry| entry.kind == Kind::Surface) {
         return Ok(file);
     }
@@ -107,16 +109,19 @@ fn format(words: &mut Words<'_>) -> Result<(), SceneError> {
 }
 
 impl File {
+    /// Names with their values; those of no meaning here are noted.
     fn controls(&mut self, words: Words<'_>) {
         let line = words.line;
-        for word in words.words {
-            match word.split_once('=') {
-                Some((name, value)) if name.eq_ignore_ascii_case("encl") => {
-                    self.closed = value != "0";
+        let words: Vec<&str> = words.words.flat_map(|word| word.split('=')).collect();
+        let words: Vec<&str> = words.into_iter().filter(|word| !word.is_empty()).collect();
+        for control in words.chunks(2) {
+            match control {
+                [name, value] if name.eq_ignore_ascii_case("encl") => self.closed = *value != "0",
+                _ => {
+                    let control = control.join("=");
+                    self.notes
+                        .push(format!("`C {control}` in line {line} is not used"));
                 }
-                _ => self
-                    .notes
-                    .push(format!("`C {word}` in line {line} is not used")),
             }
         }
     }
@@ -141,10 +146,10 @@ impl File {
     fn surface(&mut self, mut words: Words<'_>, kind: Kind) -> Result<(), SceneError> {
         let number: u32 = words.number("the number of a surface")?;
         let corners = self.corners(&mut words)?;
-        let (mut base, mut combined, mut emittance) = (None, None, 1.0);
+        let (mut base, mut combined, mut emittance) = (0, None, 1.0);
         if kind == Kind::Surface {
-            base = self.earlier(&mut words, "base", &[Kind::Surface, Kind::Obstruction])?;
-            combined = self.earlier(&mut words, "cmb", &[Kind::Surface])?;
+            base = words.number("base")?;
+            combined = self.combined_with(&mut words)?;
             emittance = words.number("the emittance")?;
             if !(0.0..=1.0).contains(&emittance) {
                 let title = format!("the emittance {emittance} is out of range");
@@ -169,7 +174,8 @@ impl File {
             },
             kind,
             corners,
-            base,
+            base_number: base,
+            base: None,
             combined,
             emittance,
         });
@@ -194,30 +200,55 @@ impl File {
         Ok(corners)
     }
 
-    /// The surface, of these kinds, that a field refers to; 0 is none.
-    fn earlier(
-        &self,
-        words: &mut Words<'_>,
-        field: &str,
-        kinds: &[Kind],
-    ) -> Result<Option<usize>, SceneError> {
-        let number: u32 = words.number(field)?;
-        if number == 0 {
-            return Ok(None);
-        }
+    /// The earlier surface that one is combined with; 0 is none.
+    fn combined_with(&self, words: &mut Words<'_>) -> Result<Option<usize>, SceneError> {
+        let number: u32 = words.number("cmb")?;
         let index = self.by_number.get(&number).copied();
-        match index.filter(|&index| kinds.contains(&self.entries[index].kind)) {
-            Some(index) => Ok(Some(index)),
-            None => {
-                let title = format!("`{field}` refers to {number}, which is no earlier surface");
-                let help = "name a surface of a line before, or write 0";
+        match index.filter(|&index| self.entries[index].kind == Kind::Surface) {
+            None if number != 0 => {
+                let title = format!("`cmb` refers to {number}, which is no earlier surface");
+                let help = "name a surface (S) of a line before, or write 0";
                 Err(words.error(&title, "this surface", help))
             }
+            index => Ok(index),
         }
+    }
+
+    /// Finds what each surface lies on: an earlier surface, or an obstruction, which come last.
+    fn find_bases(&mut self, source: &Source<'_>) -> Result<(), SceneError> {
+        for k in 0..self.entries.len() {
+            let number = self.entries[k].base_number;
+            let index = self.by_number.get(&number).copied();
+            let is_base = |&at: &usize| at < k || self.entries[at].kind == Kind::Obstruction;
+            self.entries[k].base = index.filter(is_base);
+            if number != 0 && self.entries[k].base.is_none() {
+                let title =
+                    format!("`base` refers to {number}, no obstruction and no earlier surface");
+                let complaint =
+                    Complaint::new(title, "this surface").help("name what it lies on, or write 0");
+                return Err(source.error_in_line(self.entries[k].line, &complaint));
+            }
+        }
+        Ok(())
     }
 }
 
-impl Words<'_> {
+impl<'a> Words<'a> {
+    /// Commas are as good as blanks, and a word that begins with `!` or `/` begins a comment.
+    fn of(source: &'a Source<'a>, line: usize, text: &'a str) -> Words<'a> {
+        let words = text.split(|c: char| c.is_whitespace() || c == ',');
+        let words = words.filter(|word| !word.is_empty());
+        let words: Vec<&str> = words
+            .take_while(|word| !word.starts_with(['!', '/']))
+            .collect();
+        let words = words.into_iter();
+        Words {
+            source,
+            line,
+            words,
+        }
+    }
+
     fn number<T: FromStr>(&mut self, what: &str) -> Result<T, SceneError> {
         let word = self.words.next().unwrap_or("nothing");
         word.parse().map_err(|_| {

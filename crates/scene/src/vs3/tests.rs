@@ -104,9 +104,28 @@ fn a_covered_base_has_no_row() {
 fn an_obstruction_may_be_a_base() {
     let text = GOOD.replace(
         "O 4 5 6 7 8 0 0 0.9 screen",
-        "O 4 1 2 3 4\nS 5 5 6 7 8 4 0 1 picture",
+        "S 5 5 6 7 8 4 0 1 picture\nO 4 1 2 3 4",
     );
     assert_eq!(mesh(&parse(&text).unwrap()).faces.len(), 4 + 4);
+}
+
+/// Commas and `=` part words, only the first letter of a line counts, and DOS leaves its marks.
+#[test]
+fn lines_are_read_as_view3d_does() {
+    let controls = |line: &str| parse(&GOOD.replace("C encl=1 eps=0.0001", line)).unwrap();
+    assert!(!controls("C encl=0,list=2").closed);
+    assert!(controls("C encl = 1").closed);
+    let scene = controls("C encl=1,eps=1e-4");
+    assert_eq!(scene.notes, ["`C eps=1e-4` in line 3 is not used"]);
+    let text = GOOD
+        .replace("V 1 0 0 0", "Vertex 1 0,0, 0\nX nothing")
+        .replace("*\n", "End of data\n");
+    let areas = |text: &str| mesh(&parse(text).unwrap()).total_area();
+    assert_eq!(areas(&text), areas(GOOD));
+    assert_eq!(
+        areas(&format!("\u{feff}{}", GOOD.replace("*\n", "\u{1a}\n"))),
+        areas(GOOD)
+    );
 }
 
 /// One mistake per line; the messages are in the snapshot, to be read as a user would.
@@ -133,8 +152,9 @@ fn mistakes_are_explained() {
         ("S 2 5 6 7 8 1 0", "S 2 8 7 6 5 1 0"),
         (
             "O 4 5 6 7 8 0 0 0.9 screen",
-            "O 4 5 6 7 8\nS 9 5 6 7 8 4 4 1",
+            "S 9 5 6 7 8 4 4 1\nO 4 5 6 7 8",
         ),
+        ("O 4 5 6 7 8 0 0 0.9 screen", "S 9 5 6 7 8 1 0 1"),
         ("V 7 1.5 1.5 0", "V 7 2.5 2.5 0"),
         (
             "V 7 1.5 1.5 0\nV 8 0.5 1.5 0",
