@@ -38,8 +38,11 @@ pub(crate) fn run(what: &Generated, root: &Path) -> ExitCode {
             (output.clone().unwrap_or_else(usual), text)
         }),
     };
-    match made.and_then(|(path, text)| write(&path, &text)) {
-        Ok(()) => ExitCode::SUCCESS,
+    match made.and_then(|(path, text)| write(&path, &text).map(|()| path)) {
+        Ok(path) => {
+            println!("{}", path.display());
+            ExitCode::SUCCESS
+        }
         Err(problem) => {
             eprintln!("error: {problem}");
             ExitCode::FAILURE

@@ -77,6 +77,11 @@ impl Draft {
         })
     }
 
+    /// Removes what an interrupted writer of an artifact has left. The caller has its lock.
+    pub fn discard(store: &Store, id: &Id<'_>) {
+        store.remove_leftovers(&store.path(id));
+    }
+
     /// Goes on with a draft that was interrupted, from its last checkpoint, if there is one and no
     /// byte of it is damaged; gives the state that was saved with it.
     pub fn resume<S: DeserializeOwned>(

@@ -72,6 +72,9 @@ pub enum Miss {
     /// The header's digest is wrong, or the header does not decode.
     #[error("the cached file's header is damaged")]
     Header,
+    /// The facts do not decode: another version of the program wrote them.
+    #[error("the cached file was written by another version of this program")]
+    Facts,
     /// The file is shorter or longer than its header says.
     #[error("the cached file has {found} bytes instead of {expected}")]
     Length {
@@ -192,7 +195,7 @@ pub(crate) fn parse(file: &[u8]) -> Result<(Header, std::ops::Range<usize>), Mis
 impl Header {
     /// The typed facts.
     pub(crate) fn facts<F: DeserializeOwned>(&self) -> Result<F, Miss> {
-        decode(&self.facts).ok_or(Miss::Header)
+        decode(&self.facts).ok_or(Miss::Facts)
     }
 }
 

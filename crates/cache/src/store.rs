@@ -1,7 +1,7 @@
 //! The cache folder.
 
 use crate::artifact::{Artifact, Opened, open};
-use crate::cache_file::{CacheFile, EXTENSION, lock_of};
+use crate::cache_file::{CacheFile, EXTENSION, lock_of, partial_of};
 use crate::digests::Digests;
 use crate::format::{self, Miss};
 use crate::key::Key;
@@ -81,6 +81,17 @@ impl Store {
         self.make_folder()?;
         let path = lock_of(&self.path(id));
         Lock::take(path.clone(), on_wait).map_err(CacheError::new("lock", &path))
+    }
+
+    /// Removes what an interrupted writer has left beside an artifact that is there, if nobody is
+    /// writing it now.
+    pub fn tidy(&self, id: &Id<'_>) {
+        let path = self.path(id);
+        if partial_of(&path).exists()
+            && let Ok(Some(_lock)) = Lock::try_take(lock_of(&path))
+        {
+            self.remove_leftovers(&path);
+        }
     }
 
     /// Reads an artifact's facts, or says why it must be computed. The values are mapped but

@@ -173,7 +173,7 @@ fn a_file_under_another_key_is_a_miss() {
 #[test]
 fn facts_of_another_type_are_a_miss() {
     let (_folder, store) = written();
-    assert!(matches!(store.read::<[u64; 9]>(&id(1)), Err(Miss::Header)));
+    assert!(matches!(store.read::<[u64; 9]>(&id(1)), Err(Miss::Facts)));
 }
 
 #[test]

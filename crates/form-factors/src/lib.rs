@@ -60,7 +60,7 @@ pub use tally::{ClassFacts, Classes, Tally};
 
 /// Raise it whenever the same mesh would give other form factors, because of a change here, in
 /// `geometry`, or in the random numbers: it is part of their key.
-pub const VERSION: u32 = 4;
+pub const VERSION: u32 = 5;
 
 /// How the double integral of a pair is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -115,7 +115,7 @@ impl Estimator {
 }
 
 /// What is known of one row of the form factor matrix.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RowFacts {
     /// The sum of the row's factors: the share of the power leaving the patch that arrives at
     /// fronts of other patches. More than 1 is an error of the estimator.

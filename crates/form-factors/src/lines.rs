@@ -113,7 +113,8 @@ impl Sampler for Lines<'_> {
     }
 }
 
-/// The line of number `u`, which is the first parameter on it; on triangles it is the shorter the larger `u`.
+/// The line of number `u`, which is the first parameter on it; on triangles it is the shorter the
+/// larger `u`.
 #[inline(always)]
 fn line<S: Simd>(simd: S, target: &Target, u: S::F64) -> Line<S::F64> {
     let one = simd.splat_f64(1.0);
@@ -199,8 +200,8 @@ impl<F: Float<f64>> Light<F> {
     }
 }
 
-/// The part of a line, named by its number, that a screen hides from a point: where a few functions that are linear
-/// along the line are all positive.
+/// The part of a line, named by its number, that a screen hides from a point: where a few functions
+/// that are linear along the line are all positive.
 #[inline(always)]
 fn shadow_of<S: Simd>(
     simd: S,
@@ -237,7 +238,8 @@ fn shadow_of<S: Simd>(
 /// Leaves of an interval where a linear function of these values at 0 and 1 is positive.
 #[inline(always)]
 fn clip<F: Float<f64>>(interval: &mut Interval<F>, at_start: F, at_end: F) {
-    // Infinite where the function is constant, with its sign.
+    // Infinite where the function is constant, with its sign; no number where it is zero, and then
+    // the least of that and anything is no number either: nothing is left.
     let root = at_start / (at_start - at_end);
     let grows = at_start.less(at_end);
     interval.from = interval.from.max(root).select(grows, interval.from);

@@ -4,8 +4,8 @@ use crate::{FormFactors, RowFacts};
 
 /// Form factors between *parts*: sets of patches, each patch in one of them.
 ///
-/// `F_AB`, the share of the power leaving part `A`, which radiates evenly, that arrives at part `B`, is
-/// the mean of its patches' shares, weighted by area: `sum_{i in A, j in B} A_i F_ij / A_A`.
+/// `F_AB`, the share of the power leaving part `A`, which radiates evenly, that arrives at part `B`,
+/// is the mean of its patches' shares, weighted by area: `sum_{i in A, j in B} A_i F_ij / A_A`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LumpedFactors {
     /// The area of each part, in square scene units.
@@ -38,9 +38,10 @@ impl FormFactors {
         for (&part, area) in part_of.iter().zip(&self.areas) {
             areas[part] += area;
         }
-        let sums = self.exchange.lumped_sums(part_of, parts);
-        let factor = |(k, sum): (usize, f64)| sum * total / areas[k / parts];
-        let factors: Vec<f64> = sums.into_iter().enumerate().map(factor).collect();
+        let mut factors = self.exchange.lumped_sums(part_of, parts);
+        for (row, area) in factors.chunks_mut(parts.max(1)).zip(&areas) {
+            row.iter_mut().for_each(|factor| *factor *= total / area);
+        }
         LumpedFactors {
             rows: self.lumped_rows(part_of, &areas),
             areas,
@@ -50,11 +51,8 @@ impl FormFactors {
 
     fn lumped_rows(&self, part_of: &[usize], areas: &[f64]) -> Vec<RowFacts> {
         let blank = RowFacts {
-            fronts: 0.0,
-            backs: 0.0,
-            background: 0.0,
-            rays_error: 0.0,
             error: Some(0.0),
+            ..RowFacts::default()
         };
         let mut lumped = vec![blank; areas.len()];
         for ((&part, row), area) in part_of.iter().zip(&self.rows).zip(&self.areas) {

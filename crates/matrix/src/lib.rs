@@ -123,17 +123,24 @@ impl SymmetricMatrix {
             .enumerate()
             .for_each(|(row, &part)| rows_of[part].push(row));
         let values = self.values();
-        // Of the stored triangle; the other one is its mirror image.
-        let mut stored = vec![0.0; parts * parts];
-        let by_part = stored.par_chunks_mut(parts.max(1)).zip(&rows_of);
+        let mut sums = vec![0.0; parts * parts];
+        let by_part = sums.par_chunks_mut(parts.max(1)).zip(&rows_of);
         by_part.for_each(|(sums, rows)| {
             for &row in rows {
                 let entries = values[packed_row(row)].iter().zip(part_of);
                 entries.for_each(|(&value, &part)| sums[part] += f64::from(value));
             }
         });
-        let sum = |k: usize| stored[k] + stored[k % parts * parts + k / parts];
-        (0..parts * parts).map(sum).collect()
+        // The other triangle is the mirror image of the stored one.
+        for a in 0..parts {
+            sums[a * parts + a] *= 2.0;
+            for b in 0..a {
+                let sum = sums[a * parts + b] + sums[b * parts + a];
+                sums[a * parts + b] = sum;
+                sums[b * parts + a] = sum;
+            }
+        }
+        sums
     }
 }
 

@@ -47,8 +47,9 @@ pub(crate) struct Recipe<R, M> {
     pub(crate) make: M,
 }
 
-/// Takes an artifact from the cache, or computes and caches it, one process at a time.
-/// A cache that cannot be used costs a note and nothing else.
+/// Takes an artifact from the cache, or computes and caches it, one process at a time. A cache that
+/// cannot be used from the start costs a note and nothing else; what cannot be written any more is
+/// an error, with what there is kept.
 pub(crate) fn obtain<T>(
     cache: Option<&Store>,
     observer: &dyn Observer,
@@ -70,6 +71,7 @@ pub(crate) fn obtain<T>(
         Sources::Computed => Err("asked for".to_owned()),
     };
     if let Ok(artifact) = look() {
+        store.tidy(id);
         return Ok((artifact, Origin::new(How::Cached, Some(path))));
     }
     let waiting = || {

@@ -71,15 +71,20 @@ fn table(
     }
 }
 
-/// All patches with their two coordinates on the surface, in the order of the input.
-pub(crate) fn input_order(scene: &Scene, mesh: &Mesh) -> Vec<(usize, [u32; 2])> {
+/// The faces as they were given.
+pub(crate) fn faces_in_input_order(mesh: &Mesh) -> Vec<&Face> {
     let mut faces: Vec<&Face> = mesh.faces.iter().collect();
     // Stable: the two halves of a folded quad keep their order.
     faces.sort_by_key(|face| (face.surface, face.input_index));
+    faces
+}
+
+/// All patches with their two coordinates on the surface, in the order of the input.
+pub(crate) fn input_order(scene: &Scene, mesh: &Mesh) -> Vec<(usize, [u32; 2])> {
     let mut rows: Vec<(usize, [u32; 2])> = Vec::with_capacity(mesh.patches.len());
     let mut previous = None;
     let mut position = 0;
-    for face in faces {
+    for face in faces_in_input_order(mesh) {
         let polygons = &scene.surfaces[face.surface.index()].polygons;
         let polygon = polygons.get(face.input_index as usize).copied();
         if previous.replace((face.surface, polygon)) != Some((face.surface, polygon)) {

@@ -3,7 +3,9 @@
 //! The matrix has entry `F[i, j]` from row `i` to column `j`: the share of the power leaving `i`
 //! that arrives at `j`. Rows are patches in input order, or surfaces, or groups of them.
 
+use crate::error::Error;
 use crate::export::input_order;
+use crate::resources::check_parts;
 use radiosity_form_factors::{FormFactors, LumpedFactors, RowFacts};
 use radiosity_geometry::{Mesh, Patch};
 use radiosity_scene::{Scene, Surface};
@@ -52,15 +54,16 @@ enum Entries<'a> {
 const ROWS_AT_A_TIME: usize = 64;
 
 impl<'a> FactorTable<'a> {
-    /// The form factors between the patches, surfaces or groups of a scene.
+    /// The form factors between the patches, surfaces or groups of a scene; an error if the machine
+    /// cannot hold those between so many surfaces or groups.
     pub fn new(
         scene: &'a Scene,
         mesh: &Mesh,
         form_factors: &'a FormFactors,
         by: By,
-    ) -> FactorTable<'a> {
+    ) -> Result<FactorTable<'a>, Error> {
         let name_of: fn(&Surface) -> &str = match by {
-            By::Patch => return FactorTable::of_patches(scene, mesh, form_factors),
+            By::Patch => return Ok(FactorTable::of_patches(scene, mesh, form_factors)),
             By::Surface => |surface| &surface.name,
             By::Group => |surface| &surface.group,
         };
@@ -75,6 +78,7 @@ impl<'a> FactorTable<'a> {
             })
         };
         let part_of: Vec<usize> = mesh.patches.iter().map(part).collect();
+        check_parts(names.len())?;
         let lumped = form_factors.lumped(&part_of, names.len());
         let row = |(part, name)| TableRow {
             name,
@@ -82,10 +86,10 @@ impl<'a> FactorTable<'a> {
             area: lumped.areas[part],
             facts: lumped.rows[part],
         };
-        FactorTable {
+        Ok(FactorTable {
             rows: names.into_iter().enumerate().map(row).collect(),
             entries: Entries::OfParts(lumped),
-        }
+        })
     }
 
     fn of_patches(scene: &'a Scene, mesh: &Mesh, form_factors: &'a FormFactors) -> FactorTable<'a> {
@@ -143,39 +147,37 @@ impl<'a> FactorTable<'a> {
         file.flush()
     }
 
-    /// All entries of at least `least` that are not 0, as `row,column,F`; gives the sum of the
-    /// others in each row.
-    pub fn write_sparse(&self, least: f64, file: &mut dyn Write) -> io::Result<Vec<f64>> {
+    /// All entries of at least `least` that are not 0: between patches as `row,column,F`, else by
+    /// name as `from,to,F,error`, with bounds of their errors, empty where the estimator does not
+    /// tell. Gives the sum of the others in each row.
+    pub fn write_entries(&self, least: f64, file: &mut dyn Write) -> io::Result<Vec<f64>> {
         let mut file = csv::Writer::from_writer(file);
         let mut dropped = vec![0.0; self.size()];
-        file.write_record(["row", "column", "F"])?;
+        match self.entries {
+            Entries::OfPatches { .. } => file.write_record(["row", "column", "F"])?,
+            Entries::OfParts(_) => file.write_record(["from", "to", "F", "error"])?,
+        }
         self.for_each_row(|i, row| {
             for (j, &factor) in row.iter().enumerate() {
-                if factor != 0.0 && f64::from(factor) >= least {
-                    let record = [i.to_string(), j.to_string(), factor.to_string()];
-                    file.write_record(record)?;
-                } else {
+                if factor == 0.0 || f64::from(factor) < least {
                     dropped[i] += f64::from(factor);
+                    continue;
+                }
+                match &self.entries {
+                    Entries::OfPatches { .. } => {
+                        file.write_record([i.to_string(), j.to_string(), factor.to_string()])?;
+                    }
+                    Entries::OfParts(lumped) => {
+                        let [from, to] = [i, j].map(|part| self.rows[part].name);
+                        let factor = format!("{:.9e}", lumped.factor(i, j));
+                        file.write_record([from, to, &factor, &short(lumped.error(i, j))])?;
+                    }
                 }
             }
             Ok(())
         })?;
         file.flush()?;
         Ok(dropped)
-    }
-
-    /// All entries by the names of their rows, as `from,to,F,error`: bounds of their errors, empty
-    /// where the estimator does not tell.
-    pub fn write_named(&self, file: &mut dyn Write) -> io::Result<()> {
-        let mut file = csv::Writer::from_writer(file);
-        file.write_record(["from", "to", "F", "error"])?;
-        for (i, from) in self.rows.iter().enumerate() {
-            for (j, to) in self.rows.iter().enumerate() {
-                let factor = format!("{:.9e}", self.factor(i, j));
-                file.write_record([from.name, to.name, &factor, &short(self.error(i, j))])?;
-            }
-        }
-        file.flush()
     }
 
     /// What the rows are: their areas and what is known of them, one line each. `dropped` are sums
@@ -220,13 +222,6 @@ impl<'a> FactorTable<'a> {
             file.write_record(record)?;
         }
         file.flush()
-    }
-
-    fn error(&self, i: usize, j: usize) -> Option<f64> {
-        match &self.entries {
-            Entries::OfPatches { .. } => None,
-            Entries::OfParts(lumped) => lumped.error(i, j),
-        }
     }
 
     /// Computes rows in parallel and hands them on in order.

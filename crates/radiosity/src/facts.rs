@@ -1,8 +1,9 @@
 //! What the files of the cache hold beside their arrays.
 
+use crate::export::faces_in_input_order;
 use crate::rows::RowSummary;
 use radiosity_form_factors::{Classes, ClosureFacts, Estimator, FormFactors, RowFacts};
-use radiosity_geometry::Mesh;
+use radiosity_geometry::{Face, Mesh};
 use radiosity_solver::Convergence;
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +11,7 @@ pub(crate) const FORM_FACTORS: &str = "form-factors";
 pub(crate) const CLOSURE: &str = "closure";
 pub(crate) const SOLUTION: &str = "solution";
 /// Raise it whenever the layout of anything here changes: it is part of every key.
-pub(crate) const VERSION: u32 = 5;
+pub(crate) const VERSION: u32 = 6;
 
 /// Beside the matrix of form factors.
 #[derive(Debug, Serialize, Deserialize)]
@@ -18,6 +19,8 @@ pub(crate) struct FactorFacts {
     pub(crate) estimator: Estimator,
     /// How many patches each surface has: theirs come one after the other.
     pub(crate) patches_of_surfaces: Vec<u32>,
+    /// The number of each patch's row in exported tables.
+    pub(crate) exported_as: Vec<u32>,
     /// Per patch.
     pub(crate) rows: Vec<RowFacts>,
     pub(crate) classes: Option<Classes>,
@@ -32,6 +35,7 @@ impl FactorFacts {
         FactorFacts {
             estimator,
             patches_of_surfaces: patches_of_surfaces(mesh),
+            exported_as: exported_as(mesh),
             rows: made.rows.clone(),
             classes: made.classes,
             closure: made.closure,
@@ -41,15 +45,13 @@ impl FactorFacts {
     /// Facts that take as much room as those that are not known yet.
     pub(crate) fn blank(mesh: &Mesh, estimator: Estimator, tells_errors: bool) -> FactorFacts {
         let row = RowFacts {
-            fronts: 0.0,
-            backs: 0.0,
-            background: 0.0,
-            rays_error: 0.0,
             error: tells_errors.then_some(0.0),
+            ..RowFacts::default()
         };
         FactorFacts {
             estimator,
             patches_of_surfaces: patches_of_surfaces(mesh),
+            exported_as: exported_as(mesh),
             rows: vec![row; mesh.patches.len()],
             classes: tells_errors.then(Classes::default),
             closure: None,
@@ -65,6 +67,15 @@ impl FactorFacts {
         });
         ends.take_while(|&end| end <= patch).count()
     }
+}
+
+fn exported_as(mesh: &Mesh) -> Vec<u32> {
+    let mut rows = vec![0; mesh.patches.len()];
+    let patches = faces_in_input_order(mesh)
+        .into_iter()
+        .flat_map(Face::patches);
+    patches.zip(0..).for_each(|(patch, row)| rows[patch] = row);
+    rows
 }
 
 fn patches_of_surfaces(mesh: &Mesh) -> Vec<u32> {

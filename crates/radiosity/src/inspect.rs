@@ -1,6 +1,7 @@
 //! What a file of the cache says of itself.
 
 use crate::facts::{CLOSURE, FORM_FACTORS, FactorFacts, SOLUTION, SolutionFacts};
+use crate::report::RowReport;
 use crate::rows::RowSummary;
 use radiosity_cache::{Miss, Opened};
 use radiosity_form_factors::{Estimator, RowFacts};
@@ -21,18 +22,22 @@ pub(crate) struct Inspection {
 pub(crate) struct FactorInspection {
     pub(crate) patches: usize,
     pub(crate) surfaces: usize,
-    pub(crate) estimator: Estimator,
-    pub(crate) rows: RowSummary,
+    pub(crate) estimator: EstimatorReport,
+    #[serde(flatten)]
+    pub(crate) rows: RowReport,
+    #[serde(skip)]
+    pub(crate) summary: RowSummary,
     /// How many rows have |fronts + backs + background - 1| below 1e-6, 1e-5, and so on; the last
     /// are all others.
-    pub(crate) closure: [u64; CLOSURE_BOUNDS.len() + 1],
+    pub(crate) off_by: [u64; CLOSURE_BOUNDS.len() + 1],
     /// Those that are farthest from closed.
     pub(crate) worst: Vec<WorstRow>,
 }
 
 #[derive(Debug, Serialize)]
 pub(crate) struct WorstRow {
-    pub(crate) patch: usize,
+    /// Its number in exported tables.
+    pub(crate) row: u32,
     pub(crate) surface: String,
     /// fronts + backs + background - 1
     pub(crate) excess: f64,
@@ -45,6 +50,48 @@ pub(crate) struct SolutionInspection {
     pub(crate) sweeps: usize,
     pub(crate) residual: f64,
     pub(crate) converged: bool,
+}
+
+/// An estimator with its settings.
+#[derive(Debug, Default, Serialize)]
+pub(crate) struct EstimatorReport {
+    pub(crate) mode: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) points: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) pairs: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) seed: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) tolerance: Option<f64>,
+}
+
+impl EstimatorReport {
+    fn of(estimator: Estimator) -> EstimatorReport {
+        match estimator {
+            Estimator::Regular { points } => EstimatorReport {
+                mode: "regular",
+                points: Some(points),
+                ..EstimatorReport::default()
+            },
+            Estimator::MonteCarlo {
+                points,
+                pairs,
+                seed,
+            } => EstimatorReport {
+                mode: "monte-carlo",
+                points: Some(points),
+                pairs: Some(pairs),
+                seed: Some(seed),
+                tolerance: None,
+            },
+            Estimator::Accurate { tolerance } => EstimatorReport {
+                mode: "accurate",
+                tolerance: Some(tolerance),
+                ..EstimatorReport::default()
+            },
+        }
+    }
 }
 
 /// Between the classes of rows by how far from closed they are.
@@ -86,12 +133,12 @@ impl Inspection {
 impl FactorInspection {
     fn of(facts: &FactorFacts, names: Option<&[String]>) -> FactorInspection {
         let excess = |row: &RowFacts| row.fronts + row.backs + row.background - 1.0;
-        let mut closure = [0; CLOSURE_BOUNDS.len() + 1];
+        let mut off_by = [0; CLOSURE_BOUNDS.len() + 1];
         for row in &facts.rows {
             let class = CLOSURE_BOUNDS
                 .iter()
                 .position(|bound| excess(row).abs() < *bound);
-            closure[class.unwrap_or(CLOSURE_BOUNDS.len())] += 1;
+            off_by[class.unwrap_or(CLOSURE_BOUNDS.len())] += 1;
         }
         let mut order: Vec<usize> = (0..facts.rows.len()).collect();
         let distance = |patch: &usize| excess(&facts.rows[*patch]).abs();
@@ -101,18 +148,20 @@ impl FactorInspection {
         let worst = |&patch: &usize| {
             let surface = facts.surface_of(patch);
             WorstRow {
-                patch,
+                row: facts.exported_as[patch],
                 surface: names.map_or(format!("surface {surface}"), |names| names[surface].clone()),
                 excess: excess(&facts.rows[patch]),
                 facts: facts.rows[patch],
             }
         };
+        let summary = RowSummary::new(&facts.rows, facts.classes, facts.closure);
         FactorInspection {
             patches: facts.rows.len(),
             surfaces,
-            estimator: facts.estimator,
-            rows: RowSummary::new(&facts.rows, facts.classes, facts.closure),
-            closure,
+            estimator: EstimatorReport::of(facts.estimator),
+            rows: RowReport::of(&summary),
+            summary,
+            off_by,
             worst: order.iter().take(WORST).map(worst).collect(),
         }
     }

@@ -10,6 +10,7 @@ use radiosity_cache::{CacheError, Draft, Id, Store};
 use radiosity_form_factors::{Estimation, Estimator, FormFactors, Tally};
 use radiosity_geometry::Mesh;
 use radiosity_matrix::{SymmetricMatrix, packed_len};
+use std::io::ErrorKind;
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
@@ -63,6 +64,10 @@ impl Job<'_> {
             Sources::Cached => self.resume(store, id, &blank, &estimation),
             Sources::Computed => None,
         };
+        if resumed.is_none() {
+            // It would only take the room that is needed now.
+            Draft::discard(store, id);
+        }
         let written = resumed.as_ref().map_or(0, |p| p.draft.written());
         needs.check_disk(store, 4 * written)?;
         let begun = match resumed {
@@ -87,7 +92,7 @@ impl Job<'_> {
         written
             .and_then(|()| self.finish(progress, &estimation))
             .map(|made| (made, true))
-            .map_err(|error| interrupted(&error, saved as f64 / needs.pairs as f64))
+            .map_err(|error| interrupted(&error, saved as f64 / needs.pairs as f64, sources))
     }
 
     pub(crate) fn needs(&self) -> Needs {
@@ -197,18 +202,25 @@ impl Progress {
     }
 }
 
-/// Nothing that was saved is lost.
-fn interrupted(error: &CacheError, saved: f64) -> Error {
-    let again = if saved > 0.0 {
-        let percent = 100.0 * saved;
-        format!("run the same command again, which goes on at {percent:.0} %")
+/// Nothing that was saved is lost, unless everything is to be computed anew.
+fn interrupted(error: &CacheError, saved: f64, sources: Sources) -> Error {
+    let goes_on = saved > 0.0 && sources == Sources::Cached;
+    let from = if goes_on {
+        format!(", which goes on at {:.0} %", 100.0 * saved)
     } else {
-        "run the same command again".to_owned()
+        String::new()
+    };
+    let mend = match error.error.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
+            "make room there"
+        }
+        _ => "see to that",
     };
     Error::Resources {
         problem: error.to_string(),
         remedy: format!(
-            "make room there and {again}; or use another folder with --cache, or --no-cache"
+            "{mend} and run the same command again{from}; or use another folder with --cache, or \
+             --no-cache"
         ),
     }
 }

@@ -52,13 +52,17 @@ pub(crate) fn error_line(rows: &RowSummary) -> Option<String> {
 /// Pairs by how much they see of each other.
 pub(crate) fn class_line(Classes { clear, partial }: &Classes, patches: usize) -> String {
     let pairs = radiosity_matrix::packed_len(patches).max(1) as f64;
+    let error = |error: f64| match error {
+        0.0 => "0".to_owned(),
+        error => format!("{error:.1e}"),
+    };
     let percent = |pairs_of: u64| 100.0 * pairs_of as f64 / pairs;
     format!(
-        "{:.1} % of the pairs are clear (error {:.1e}), {:.1} % partly hidden ({:.1e}), the others hidden",
+        "{:.1} % of the pairs are clear (error {}), {:.1} % partly hidden ({}), the others see nothing of each other",
         percent(clear.pairs),
-        clear.error,
+        error(clear.error),
         percent(partial.pairs),
-        partial.error,
+        error(partial.error),
     )
 }
 

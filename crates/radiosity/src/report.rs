@@ -53,6 +53,13 @@ struct FormFactorReport {
     cached: bool,
     /// Why they were computed, or that nobody needed them; null if cached.
     reason: Option<String>,
+    #[serde(flatten)]
+    rows: RowReport,
+}
+
+/// What is known of the rows.
+#[derive(Debug, Serialize)]
+pub(crate) struct RowReport {
     row_sum_mean: f64,
     /// The mean shares of what a patch sees that are backs, and nothing at all: by rays.
     row_backs_mean: f64,
@@ -74,6 +81,22 @@ struct FormFactorReport {
     /// How rows were made to sum to 1, if they were.
     #[serde(skip_serializing_if = "Option::is_none")]
     closure: Option<ClosureFacts>,
+}
+
+impl RowReport {
+    pub(crate) fn of(rows: &RowSummary) -> RowReport {
+        RowReport {
+            row_sum_mean: rows.mean,
+            row_backs_mean: rows.backs,
+            row_background_mean: rows.background,
+            row_sum_max_error: rows.max_error,
+            row_sum_mean_error: rows.mean_error,
+            row_error_mean: rows.estimated_error.map(|(mean, _)| mean),
+            row_error_max: rows.estimated_error.map(|(_, worst)| worst),
+            classes: rows.classes,
+            closure: rows.closure,
+        }
+    }
 }
 
 #[derive(Debug, Serialize)]
@@ -154,15 +177,7 @@ impl<'a> Report<'a> {
             seconds: origin.seconds,
             cached: origin.is_cached(),
             reason: origin.reason().map(str::to_owned),
-            row_sum_mean: rows.mean,
-            row_backs_mean: rows.backs,
-            row_background_mean: rows.background,
-            row_sum_max_error: rows.max_error,
-            row_sum_mean_error: rows.mean_error,
-            row_error_mean: rows.estimated_error.map(|(mean, _)| mean),
-            row_error_max: rows.estimated_error.map(|(_, worst)| worst),
-            classes: rows.classes,
-            closure: rows.closure,
+            rows: RowReport::of(rows),
         });
     }
 

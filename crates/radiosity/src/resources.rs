@@ -98,6 +98,23 @@ pub(crate) fn check_image(width: u32, height: u32) -> Result<(), Error> {
     }
 }
 
+/// Refuses a matrix between so many parts that does not fit into memory.
+pub(crate) fn check_parts(parts: usize) -> Result<(), Error> {
+    let needed = 8 * (parts as u64).pow(2);
+    match usable_memory() {
+        Some(usable) if needed > usable => Err(Error::Resources {
+            problem: format!(
+                "the factors between {} parts need {} of memory, but only {} can be used",
+                grouped(parts as u64),
+                bytes(needed),
+                bytes(usable),
+            ),
+            remedy: "export them --by patch, or put surfaces into fewer groups".to_owned(),
+        }),
+        _ => Ok(()),
+    }
+}
+
 fn usable_memory() -> Option<u64> {
     free_memory().map(|free| (free as f64 * USABLE_SHARE) as u64)
 }
@@ -196,6 +213,11 @@ mod tests {
         assert!(error.contains("use fewer patches"), "{error}");
         assert!(needs(100, 3).check_memory().is_ok());
         assert!(needs(4000, 64).memory > 500_000_000, "points count too");
+        let error = check_parts(1 << 20).unwrap_err().to_string();
+        assert!(
+            error.contains("8.8 TB") && error.contains("--by"),
+            "{error}"
+        );
         let error = check_image(1 << 16, 1 << 16).unwrap_err().to_string();
         assert!(
             error.contains("168 GB") && error.contains("--size"),

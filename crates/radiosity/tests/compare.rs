@@ -109,7 +109,10 @@ fn what_cannot_be_compared_is_said() {
             "b.ppm is not a good PNG",
         ),
         ("compare none.png a.ppm", "cannot read none.png"),
-        ("compare a.ppm a.ppm --patches 3", "--patches is for tables"),
+        (
+            "compare a.ppm a.ppm --patches 3",
+            "--patches and --coarsen are for tables",
+        ),
         (
             "compare a.csv a.csv --scene room.toml --gamma 2",
             "are for pictures",

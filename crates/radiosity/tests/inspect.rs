@@ -26,10 +26,10 @@ fn form_factors_are_described() {
     let said = place.succeed(&format!("inspect {form_factors} --scene room.toml"));
     for part in [
         "no byte is damaged",
-        "accurate, tolerance 5e-4, between 17 patches of 4 surfaces",
+        "accurate, tolerance 5e-4; 17 patches of 4 surfaces",
         "rows by |fronts + backs + nothing - 1|",
         "worst rows",
-        "in `",
+        "in row ",
     ] {
         assert!(said.contains(part), "{part}: {said}");
     }
@@ -40,8 +40,10 @@ fn form_factors_are_described() {
     let found = place.json(&format!("inspect {form_factors}"));
     let found = &found["form_factors"];
     assert_eq!(found["patches"], 17);
+    assert_eq!(found["estimator"]["mode"], "accurate");
+    assert!(found["row_sum_mean"].is_f64());
     assert_eq!(found["worst"].as_array().unwrap().len(), 5);
-    let counts = found["closure"].as_array().unwrap();
+    let counts = found["off_by"].as_array().unwrap();
     let rows: u64 = counts.iter().map(|count| count.as_u64().unwrap()).sum();
     assert_eq!(rows, 17);
     let worst = &found["worst"][0];

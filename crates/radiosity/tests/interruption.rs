@@ -109,18 +109,27 @@ fn a_full_disk_stops_the_run_and_loses_nothing() {
     // In units of 512 bytes: half of the artifact.
     let limit = expected.len() / 1024;
     let binary = env!("CARGO_BIN_EXE_radiosity");
-    let limited = format!("trap '' XFSZ; ulimit -f {limit}; exec {binary} {LONG}");
-    let refused = Command::new("sh")
-        .args(["-c", &limited])
-        .current_dir(place.path("."))
-        .output()
-        .unwrap();
-    let stderr = String::from_utf8(refused.stderr).unwrap();
-    assert_eq!(refused.status.code(), Some(4), "{stderr}");
-    assert!(stderr.contains("error: cannot write"), "{stderr}");
+    let refused = |arguments: &str| {
+        let limited = format!("trap '' XFSZ; ulimit -f {limit}; exec {binary} {arguments}");
+        let refused = Command::new("sh")
+            .args(["-c", &limited])
+            .current_dir(place.path("."))
+            .output()
+            .unwrap();
+        let stderr = String::from_utf8(refused.stderr).unwrap();
+        assert_eq!(refused.status.code(), Some(4), "{stderr}");
+        assert!(stderr.contains("error: cannot write"), "{stderr}");
+        stderr
+    };
+    let anew = refused(&format!("{LONG} --recompute"));
     assert!(
-        stderr.contains("make room there and run the same command again, which goes on at"),
-        "{stderr}"
+        anew.contains("make room there and run the same command again; or"),
+        "{anew}"
+    );
+    let again = refused(LONG);
+    assert!(
+        again.contains("make room there and run the same command again, which goes on at"),
+        "{again}"
     );
     let (code, _, stderr) = place.run(LONG);
     assert_eq!(code, 0, "{stderr}");

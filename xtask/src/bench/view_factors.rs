@@ -77,7 +77,7 @@ pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
 fn measure(root: &Path, size: &Size, exact: &[f32]) -> Result<Vec<Figure>, Error> {
     let (scene, mesh) = boxed(root, size.elements, 0)?;
     let (seconds, made) = best(&mesh, size);
-    let table = FactorTable::new(&scene, &mesh, &made, By::Group);
+    let table = FactorTable::new(&scene, &mesh, &made, By::Group)?;
     let square = |(k, &exact): (usize, &f32)| {
         let (i, j) = (k / table.size(), k % table.size());
         (table.factor(i, j) - f64::from(exact)).powi(2)

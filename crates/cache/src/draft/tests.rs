@@ -102,6 +102,21 @@ fn half_an_artifact_is_none() {
     assert_eq!(store.clean().unwrap().0, 2, "the draft and its journal");
 }
 
+#[test]
+fn drafts_beside_an_artifact_are_removed_when_nobody_writes_them() {
+    let (_folder, store) = interrupted(&values(100), 50, 0);
+    store.write(&id(2), &FACTS, &values(3)).unwrap();
+    let left = || fs::read_dir(store.folder()).unwrap().count();
+    store.tidy(&id(2));
+    assert_eq!(left(), 3, "another's is left alone");
+    let lock = store.lock(&id(1), || ()).unwrap();
+    store.tidy(&id(1));
+    assert_eq!(left(), 4, "one that is being written too");
+    drop(lock);
+    store.tidy(&id(1));
+    assert_eq!(left(), 1);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 

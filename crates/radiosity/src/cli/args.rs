@@ -13,7 +13,7 @@ use std::path::PathBuf;
 pub enum Command {
     /// Render a scene: form factors, solution and both pictures, each computed only if needed
     Render(DisplayCommand),
-    /// Compute the form factors of a scene, and cache them
+    /// Compute the form factors (view factors) of a scene, cache them, and write them on request
     FormFactors(FormFactorsCommand),
     /// Solve anew for the radiosities, with cached form factors where possible
     Solve(SolveCommand),
@@ -167,8 +167,8 @@ pub struct FormFactorsCommand {
     /// from,to,F,error
     #[arg(long, value_enum, default_value = "patch", requires = "export")]
     pub by: ByArg,
-    /// Write only entries of at least X, as lines of row,column,F; the sum of the others is
-    /// a column of NAME.rows.csv
+    /// Write only entries of at least X, as lines of row,column,F or from,to,F,error; the sum of the
+    /// others is a column of NAME.rows.csv
     #[arg(long, value_name = "X", value_parser = parse_threshold, allow_negative_numbers = true, requires = "export")]
     pub sparse: Option<f64>,
 }

@@ -37,7 +37,7 @@ fn check_lines(scene: &Scene, needs: &Needs) -> Vec<String> {
             bytes(needs.disk),
         ),
     ];
-    if scene.materials.iter().all(|m| m.emission == [0.0; 3]) {
+    if scene.camera.is_some() && scene.materials.iter().all(|m| m.emission == [0.0; 3]) {
         lines.push(indented(
             "warning: nothing emits light; pictures will be black",
         ));

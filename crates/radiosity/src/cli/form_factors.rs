@@ -38,7 +38,7 @@ pub(super) fn run(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
                 ByArg::Surface => By::Surface,
                 ByArg::Group => By::Group,
             };
-            let table = FactorTable::new(&scene, pipeline.mesh(), &made.form_factors, by);
+            let table = FactorTable::new(&scene, pipeline.mesh(), &made.form_factors, by)?;
             let rows_path = export_table(&table, path, args)?;
             report.output("export", path);
             report.output("export_rows", &rows_path);
@@ -49,9 +49,10 @@ pub(super) fn run(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
 
 /// Refuses what cannot be written, before anything is computed for it.
 fn check_export(path: &Path, args: &FormFactorsCommand) -> Result<(), Error> {
-    if args.sparse.is_some() && (is_npy(path) || args.by != ByArg::Patch) {
+    if args.sparse.is_some() && is_npy(path) {
         return Err(Error::Input(
-            "--sparse is for patches and .csv\n   = help: leave --sparse out, or --by".to_owned(),
+            "--sparse is for .csv alone\n   = help: leave it out, or export to a path that ends in .csv"
+                .to_owned(),
         ));
     }
     check_folder_of(path)
@@ -64,13 +65,14 @@ fn export_table(
     args: &FormFactorsCommand,
 ) -> Result<PathBuf, Error> {
     let mut dropped = None;
-    write_by(path, |file| match args.sparse {
-        Some(least) => table
-            .write_sparse(least, file)
-            .map(|sums| dropped = Some(sums)),
-        None if is_npy(path) => table.write_npy(file),
-        None if args.by == ByArg::Patch => table.write_matrix(file),
-        None => table.write_named(file),
+    write_by(path, |file| match (args.sparse, args.by) {
+        _ if is_npy(path) => table.write_npy(file),
+        (None, ByArg::Patch) => table.write_matrix(file),
+        (least, _) => {
+            let sums = table.write_entries(least.unwrap_or(0.0), file)?;
+            dropped = least.map(|_| sums);
+            Ok(())
+        }
     })?;
     let rows_path = path.with_extension("rows.csv");
     write_by(&rows_path, |file| {

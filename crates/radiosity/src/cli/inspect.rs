@@ -4,11 +4,12 @@ use super::args::InspectCommand;
 use super::site::Site;
 use super::terminal::say;
 use crate::error::Error;
-use crate::inspect::{CLOSURE_BOUNDS, FactorInspection, Inspection, SolutionInspection, WorstRow};
+use crate::inspect::{
+    CLOSURE_BOUNDS, EstimatorReport, FactorInspection, Inspection, SolutionInspection, WorstRow,
+};
 use crate::lines::{class_line, closure_line, error_line, indented, labelled, row_line};
 use crate::resources::{bytes, grouped};
 use radiosity_cache::{Miss, open};
-use radiosity_form_factors::Estimator;
 use std::path::Path;
 
 /// The longest bar of the histogram, in characters.
@@ -77,26 +78,26 @@ fn surface_names(
 
 fn factor_lines(found: &FactorInspection) -> Vec<String> {
     let made = format!(
-        "{} between {} patches of {} surfaces",
-        estimator(found.estimator),
+        "{}; {} patches of {} surfaces",
+        estimator(&found.estimator),
         grouped(found.patches as u64),
         grouped(found.surfaces as u64),
     );
     let mut lines = vec![
         labelled("form factors", &made),
-        labelled("rows", &row_line(&found.rows)),
+        labelled("rows", &row_line(&found.summary)),
     ];
-    let more = error_line(&found.rows)
+    let more = error_line(&found.summary)
         .into_iter()
-        .chain(closure_line(&found.rows));
+        .chain(closure_line(&found.summary));
     lines.extend(more.map(|line| indented(&line)));
-    let classes = found.rows.classes.as_ref();
+    let classes = found.summary.classes.as_ref();
     lines.extend(classes.map(|c| indented(&class_line(c, found.patches))));
     lines.push(labelled(
         "closure",
         "rows by |fronts + backs + nothing - 1|",
     ));
-    lines.extend(histogram(&found.closure).iter().map(|line| indented(line)));
+    lines.extend(histogram(&found.off_by).iter().map(|line| indented(line)));
     lines.extend(
         found
             .worst
@@ -107,18 +108,25 @@ fn factor_lines(found: &FactorInspection) -> Vec<String> {
     lines
 }
 
-fn estimator(estimator: Estimator) -> String {
-    match estimator {
-        Estimator::Regular { points } => format!("regular, {points} x {points} points,"),
-        Estimator::MonteCarlo {
-            points,
-            pairs,
-            seed,
-        } => {
-            format!("monte-carlo, {points} x {points} strata, {pairs} pairs, seed {seed},")
-        }
-        Estimator::Accurate { tolerance } => format!("accurate, tolerance {tolerance:e},"),
-    }
+fn estimator(made: &EstimatorReport) -> String {
+    let setting = |name: &str, value: Option<String>| {
+        value.map_or(String::new(), |value| format!(", {name} {value}"))
+    };
+    let EstimatorReport {
+        mode,
+        points,
+        pairs,
+        seed,
+        tolerance,
+    } = made;
+    [
+        (*mode).to_owned(),
+        setting("points", points.map(|n| n.to_string())),
+        setting("pairs", pairs.map(|n| n.to_string())),
+        setting("seed", seed.map(|n| n.to_string())),
+        setting("tolerance", tolerance.map(|x| format!("{x:e}"))),
+    ]
+    .concat()
 }
 
 /// A bar for each class of rows.
@@ -142,9 +150,9 @@ fn worst_line(row: &WorstRow) -> String {
         .error
         .map_or(String::new(), |error| format!(" +- {error:.1e}"));
     format!(
-        "{:+.1e} at patch {} in `{}`: fronts {:.6}{error}, backs {:.4}, nothing {:.4}, both +- {:.0e}",
+        "{:+.1e} in row {}, `{}`: fronts {:.6}{error}, backs {:.4}, nothing {:.4}, both +- {:.0e}",
         row.excess,
-        row.patch,
+        row.row,
         row.surface,
         facts.fronts,
         facts.backs,

@@ -147,6 +147,7 @@ pub(super) fn check_folder_of(path: &Path) -> Result<(), Error> {
         _ => Path::new("."),
     };
     let error = match std::fs::metadata(folder) {
+        Ok(_) if path.is_dir() => std::io::ErrorKind::IsADirectory.into(),
         Ok(metadata) if metadata.is_dir() => return Ok(()),
         Ok(_) => std::io::ErrorKind::NotADirectory.into(),
         Err(error) => error,

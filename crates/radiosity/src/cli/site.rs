@@ -55,8 +55,10 @@ impl Site {
         if is_path || Path::new(wanted).is_file() {
             return Ok(wanted.into());
         }
-        let named = self.scenes.join(format!("{wanted}.toml"));
-        if named.is_file() {
+        let mut named = endings
+            .map(|ending| self.scenes.join(format!("{wanted}{ending}")))
+            .into_iter();
+        if let Some(named) = named.find(|path| path.is_file()) {
             return Ok(named);
         }
         Err(Error::NoSuchScene {
@@ -70,7 +72,8 @@ impl Site {
         let mut names: Vec<String> = entries
             .filter_map(|entry| {
                 let path = entry.ok()?.path();
-                let is_scene = path.extension()? == "toml";
+                let ending = path.extension()?;
+                let is_scene = ending == "toml" || ending == "vs3";
                 is_scene.then(|| path.file_stem()?.to_str().map(str::to_owned))?
             })
             .collect();
