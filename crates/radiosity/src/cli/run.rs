@@ -218,7 +218,7 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     write_by(path, |file| file.write_all(bytes))
 }
 
-/// [`write`] for what is written bit by bit.
+/// The same for what is written bit by bit.
 pub(super) fn write_by(
     path: &Path,
     write: impl FnOnce(&mut dyn io::Write) -> io::Result<()>,
