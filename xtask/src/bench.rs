@@ -5,6 +5,7 @@ mod form_factors;
 mod machine;
 mod truth;
 mod view_factors;
+mod visibility;
 
 use clap::Subcommand;
 use serde::Serialize;
@@ -23,6 +24,12 @@ pub(crate) enum Bench {
     },
     /// View factors of a closed box, at four sizes, beside View3D (minutes)
     ViewFactors {
+        /// Print one JSON object per figure: name, value, unit, target, holds
+        #[arg(long)]
+        json: bool,
+    },
+    /// Segments among 70,000 triangles, beside Embree if it is installed (Debian: libembree-dev)
+    Visibility {
         /// Print one JSON object per figure: name, value, unit, target, holds
         #[arg(long)]
         json: bool,
@@ -112,6 +119,7 @@ pub(crate) fn run(bench: Bench, root: &Path) -> ExitCode {
         Bench::FormFactors { json } => form_factors::run(root, json),
         Bench::Truth { json } => truth::run(root, json),
         Bench::ViewFactors { json } => view_factors::run(root, json),
+        Bench::Visibility { json } => visibility::run(root, json),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

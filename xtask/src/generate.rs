@@ -1,7 +1,9 @@
 //! `cargo xtask generate`: scenes and meshes that follow a rule.
 
+pub(crate) mod blob;
 mod knot;
 pub(crate) mod nested_box;
+mod vs3;
 
 use clap::Subcommand;
 use std::path::{Path, PathBuf};
@@ -24,6 +26,15 @@ pub(crate) enum Generated {
         #[arg(long, short)]
         output: Option<PathBuf>,
     },
+    /// A View3D scene: a dented ball of many triangles that stand in the way, in a box of 1,944 patches
+    Blob {
+        /// About how many triangles
+        #[arg(long, default_value = "70000")]
+        triangles: u32,
+        /// The file [default: out/blob-TRIANGLES.vs3]
+        #[arg(long, short)]
+        output: Option<PathBuf>,
+    },
 }
 
 pub(crate) fn run(what: &Generated, root: &Path) -> ExitCode {
@@ -35,6 +46,10 @@ pub(crate) fn run(what: &Generated, root: &Path) -> ExitCode {
             output,
         } => nested_box::vs3(root, *elements, *obstacles).map(|text| {
             let usual = || root.join(format!("out/box-{elements}-{obstacles}.vs3"));
+            (output.clone().unwrap_or_else(usual), text)
+        }),
+        Generated::Blob { triangles, output } => blob::vs3(*triangles).map(|text| {
+            let usual = || root.join(format!("out/blob-{triangles}.vs3"));
             (output.clone().unwrap_or_else(usual), text)
         }),
     };

@@ -1,15 +1,13 @@
 //! The closed box of 313 rectangles, cut finer.
 
+use super::vs3::{Point, Scene, cells};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use std::collections::HashMap;
-use std::fmt::Write;
 use std::path::Path;
 
 /// How many rectangles it has before it is cut.
 pub(crate) const PARENTS: u32 = 313;
 
-type Point = [f64; 3];
 type Rectangle = [Point; 4];
 
 /// Where plates may be: in the box, and not in the cuboid 10..30 x 0..40 x 80..100.
@@ -29,25 +27,29 @@ pub(crate) fn vs3(root: &Path, elements: u32, obstacles: u32) -> Result<String, 
     let mut scene = Scene::default();
     let mut first_of_parent = 1;
     for (parent, rectangle) in parents(root)?.iter().enumerate() {
-        for cell in cells(rectangle, cuts) {
+        let [a, b, _, d] = *rectangle;
+        for cell in cells([a, b, d], cuts, cuts) {
             let combined = if scene.surfaces < first_of_parent {
                 0
             } else {
                 first_of_parent
             };
-            scene.surface('S', &cell, &format!("0 {combined} 0.9 {parent}"));
+            scene.add('S', &cell, &format!("0 {combined} 0.9 {parent}"));
         }
         first_of_parent = scene.surfaces + 1;
     }
     let mut rng = Pcg64Mcg::seed_from_u64(0);
     for plate in 0..obstacles {
-        scene.surface(
+        scene.add(
             'O',
             &plate_at_random(&mut rng),
             &format!("0 0 1 plate {plate}"),
         );
     }
-    Ok(scene.text(elements, obstacles))
+    let title = format!(
+        "a closed box of {elements} rectangles with a cuboid in it, and {obstacles} plates"
+    );
+    Ok(scene.text(&title, obstacles == 0))
 }
 
 fn parents(root: &Path) -> Result<Vec<Rectangle>, String> {
@@ -59,21 +61,6 @@ fn parents(root: &Path) -> Result<Vec<Rectangle>, String> {
         std::array::from_fn(|corner| std::array::from_fn(|axis| numbers[2 + 3 * corner + axis]))
     };
     Ok(text.lines().skip(1).map(rectangle).collect())
-}
-
-fn cells(&[a, b, _, d]: &Rectangle, cuts: u32) -> Vec<Rectangle> {
-    let at = |i: u32, j: u32| -> Point {
-        let (u, v) = (
-            f64::from(i) / f64::from(cuts),
-            f64::from(j) / f64::from(cuts),
-        );
-        std::array::from_fn(|k| a[k] + u * (b[k] - a[k]) + v * (d[k] - a[k]))
-    };
-    let cell = |i, j| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
-    (0..cuts)
-        .flat_map(|i| (0..cuts).map(move |j| (i, j)))
-        .map(|(i, j)| cell(i, j))
-        .collect()
 }
 
 /// A square plate at right angles to an axis, clear of the walls and of the cuboid.
@@ -94,43 +81,5 @@ fn plate_at_random(rng: &mut Pcg64Mcg) -> Rectangle {
             point
         };
         return [moved(&[]), moved(&[u]), moved(&[u, v]), moved(&[v])];
-    }
-}
-
-/// The lines of a scene.
-#[derive(Default)]
-struct Scene {
-    vertex_lines: String,
-    surface_lines: String,
-    /// By their text: points that are written alike are one.
-    vertices: HashMap<String, usize>,
-    surfaces: u32,
-}
-
-impl Scene {
-    fn surface(&mut self, kind: char, corners: &Rectangle, rest: &str) {
-        self.surfaces += 1;
-        let [a, b, c, d] = corners.map(|corner| self.vertex(corner));
-        let number = self.surfaces;
-        writeln!(self.surface_lines, "{kind} {number} {a} {b} {c} {d} {rest}")
-            .expect("strings take all text");
-    }
-
-    fn vertex(&mut self, [x, y, z]: Point) -> usize {
-        let text = format!("{x:.7} {y:.7} {z:.7}");
-        let next = self.vertices.len() + 1;
-        *self.vertices.entry(text).or_insert_with_key(|text| {
-            writeln!(self.vertex_lines, "V {next} {text}").expect("strings take all text");
-            next
-        })
-    }
-
-    fn text(&self, elements: u32, obstacles: u32) -> String {
-        let closed = if obstacles == 0 { "C encl=1\n" } else { "" };
-        format!(
-            "T a closed box of {elements} rectangles with a cuboid in it, and {obstacles} plates\n\
-             {closed}F 3\n{}{}*\n",
-            self.vertex_lines, self.surface_lines
-        )
     }
 }
