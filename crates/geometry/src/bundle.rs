@@ -1,13 +1,15 @@
 //! Eight segments at a time: what blocks any of them lies in the shaft around all.
 //!
 //! One shaft is tested against eight boxes at once, and one face against eight segments, so a
-//! bundle of neighbours costs little more than a single segment.
+//! bundle of neighbours costs little more than a single segment, unless faces are small beside the
+//! shaft: then segments go their own ways.
 
 use crate::bounds::Aabb;
 use crate::bvh::{ShaftVisitor, bits};
 use crate::face_block::around_origin;
 use crate::mesh::FaceId;
-use crate::occluders::{Occluder, Occluders};
+use crate::occluders::{Occluder, Occluders, ordered};
+use crate::queries::Blocked;
 use crate::shaft::Shaft;
 use glam::DVec3;
 use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
@@ -60,9 +62,30 @@ impl Kernel for BlockedOf<'_> {
             bundle: self.bundle,
             segments: Segments::new(simd, &from, &to),
             open: self.wanted,
+            tried: 0,
         };
         tree.within(simd, &shaft, &mut search);
+        if search.tried > MOST_TRIED {
+            search.open = self.alone(simd, search.open);
+        }
         self.wanted & !search.open
+    }
+}
+
+impl BlockedOf<'_> {
+    /// Which of these segments nothing blocks, each traced by itself.
+    #[inline(always)]
+    fn alone<S: Simd>(&self, simd: S, lanes: u8) -> u8 {
+        let Bundle { points, faces } = self.bundle;
+        let mut open = lanes;
+        for lane in bits(lanes) {
+            let [p, q] = points.map(|ends| DVec3::from_array(ends.map(|axis| axis[lane])));
+            let except = faces.map(|faces| faces[lane]);
+            if Blocked::new(self.occluders, except, ordered(p, q)).run(simd) {
+                open &= !(1 << lane);
+            }
+        }
+        open
     }
 }
 
@@ -127,7 +150,12 @@ struct Search<'a> {
     segments: Segments,
     /// The segments that nothing is known to block.
     open: u8,
+    /// How many faces they were tried against.
+    tried: u32,
 }
+
+/// Where more faces reach into a shaft, it is wide for them, and each segment meets but a few.
+const MOST_TRIED: u32 = 8;
 
 impl ShaftVisitor for Search<'_> {
     #[inline(always)]
@@ -141,7 +169,8 @@ impl ShaftVisitor for Search<'_> {
             }
         }
         self.open &= !cut;
-        if self.open == 0 {
+        self.tried += 1;
+        if self.open == 0 || self.tried > MOST_TRIED {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())
