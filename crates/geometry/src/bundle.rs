@@ -132,7 +132,7 @@ impl Segments {
     }
 }
 
-/// [`ordered`](crate::occluders::ordered) for all lanes: where the first point comes first.
+/// [`ordered`] for all lanes: where the first point comes first.
 #[inline(always)]
 fn in_order<S: Simd>(simd: S, from: &Points, to: &Points) -> u8 {
     let (mut before, mut equal) = (0, !0);
