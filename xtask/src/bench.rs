@@ -109,6 +109,12 @@ impl Figure {
     }
 }
 
+/// Prints figures, for people or as JSON.
+fn show(figures: &[Figure], json: bool) {
+    let show = if json { Figure::print } else { Figure::say };
+    figures.iter().for_each(show);
+}
+
 /// Prints a line; that nobody reads it any more (`| head`) is no error.
 fn line(text: &str) {
     let _ = writeln!(std::io::stdout(), "{text}");

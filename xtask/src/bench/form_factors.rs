@@ -52,13 +52,7 @@ pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
     figures.extend(sizes(&scene, rate, peak)?);
     figures.extend(instruction_sets(root));
     figures.extend(accuracy(&mut scene, point_pairs(&mesh) / rate)?);
-    for figure in &figures {
-        if json {
-            figure.print();
-        } else {
-            figure.say();
-        }
-    }
+    super::show(&figures, json);
     Ok(())
 }
 

@@ -62,13 +62,7 @@ pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
     for size in &SIZES {
         let mut figures = pool.install(|| measure(root, size, &exact))?;
         figures.extend(pool.install(|| among_plates(root, size))?);
-        for figure in &figures {
-            if json {
-                figure.print();
-            } else {
-                figure.say();
-            }
-        }
+        super::show(&figures, json);
     }
     Ok(())
 }

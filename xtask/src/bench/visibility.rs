@@ -67,13 +67,7 @@ pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
     let seconds = Some(start.elapsed().as_secs_f64());
     let what = "s, all factors of the 1,944 patches";
     figures.push(figure("stage.seconds", seconds, what, None));
-    for figure in &figures {
-        if json {
-            figure.print();
-        } else {
-            figure.say();
-        }
-    }
+    super::show(&figures, json);
     Ok(())
 }
 
