@@ -8,6 +8,9 @@ mod view_factors;
 mod visibility;
 
 use clap::Subcommand;
+use radiosity::Error;
+use radiosity::geometry::{Mesh, subdivide};
+use radiosity::scene::{Scene, parse};
 use serde::Serialize;
 use std::io::Write;
 use std::path::Path;
@@ -107,6 +110,13 @@ impl Figure {
     fn print(&self) {
         line(&serde_json::to_string(self).expect("plain data always encodes"));
     }
+}
+
+/// A scene that was generated, cut as it says.
+fn generated(name: &str, text: &str) -> Result<(Scene, Mesh), Error> {
+    let scene = parse(Path::new(name), text)?;
+    let mesh = subdivide(&scene.geometry, scene.divisions);
+    Ok((scene, mesh.map_err(|error| Error::Mesh(error.to_string()))?))
 }
 
 /// Prints figures, for people or as JSON.

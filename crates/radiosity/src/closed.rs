@@ -1,6 +1,5 @@
 //! Form factors whose rows sum to 1: a variant of those that were estimated, and a file of its own.
 
-use crate::artifact::usable;
 use crate::error::Error;
 use crate::facts::FactorFacts;
 use crate::job::Job;
@@ -23,12 +22,7 @@ pub(crate) fn closed(
     let facts = |made: &FormFactors| FactorFacts::new(job.mesh, job.estimator, made);
     let mut blank = facts(raw);
     blank.closure = Some(ClosureFacts::default());
-    let begin = |store: &Store| {
-        job.needs().check_disk(store, 0)?;
-        let count = raw.exchange.values().len() as u64;
-        let draft = Draft::begin(store, id, &blank, count);
-        Ok::<_, Error>(usable(draft, job.observer, id))
-    };
+    let begin = |store: &Store| job.begin_draft(store, id, &blank);
     let Some(mut draft) = store.map(begin).transpose()?.flatten() else {
         // The first is in memory already, so there must be room for another.
         job.needs().check_memory()?;

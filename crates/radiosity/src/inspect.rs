@@ -5,7 +5,7 @@ use crate::report::RowReport;
 use crate::rows::RowSummary;
 use radiosity_cache::{Miss, Opened};
 use radiosity_form_factors::{Estimator, RowFacts};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// The object that `inspect --json` prints. Fields may be added, but not changed or removed.
 #[derive(Debug, Serialize)]
@@ -23,10 +23,8 @@ pub(crate) struct FactorInspection {
     pub(crate) patches: usize,
     pub(crate) surfaces: usize,
     pub(crate) estimator: EstimatorReport,
-    #[serde(flatten)]
-    pub(crate) rows: RowReport,
-    #[serde(skip)]
-    pub(crate) summary: RowSummary,
+    #[serde(flatten, serialize_with = "as_reported")]
+    pub(crate) rows: RowSummary,
     /// How many rows have |fronts + backs + background - 1| below 1e-6, 1e-5, and so on; the last
     /// are all others.
     pub(crate) off_by: [u64; CLOSURE_BOUNDS.len() + 1],
@@ -50,6 +48,11 @@ pub(crate) struct SolutionInspection {
     pub(crate) sweeps: usize,
     pub(crate) residual: f64,
     pub(crate) converged: bool,
+}
+
+/// Under the names that all reports have.
+fn as_reported<S: Serializer>(rows: &RowSummary, serializer: S) -> Result<S::Ok, S::Error> {
+    RowReport::of(rows).serialize(serializer)
 }
 
 /// An estimator with its settings.
@@ -154,13 +157,11 @@ impl FactorInspection {
                 facts: facts.rows[patch],
             }
         };
-        let summary = RowSummary::new(&facts.rows, facts.classes, facts.closure);
         FactorInspection {
             patches: facts.rows.len(),
             surfaces,
             estimator: EstimatorReport::of(facts.estimator),
-            rows: RowReport::of(&summary),
-            summary,
+            rows: RowSummary::new(&facts.rows, facts.classes, facts.closure),
             off_by,
             worst: order.iter().take(WORST).map(worst).collect(),
         }

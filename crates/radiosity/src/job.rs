@@ -21,7 +21,8 @@ pub(crate) struct Job<'a> {
     pub(crate) observer: &'a dyn Observer,
 }
 
-/// How often checkpoints are made: an interruption loses about twice as much.
+/// How often checkpoints are made at most: an interruption loses what came since the last one, and
+/// a run of rows is never cut.
 const BETWEEN_CHECKPOINTS: Duration = Duration::from_millis(250);
 /// How many pairs are estimated before the clock is looked at: in the beginning, and at most.
 const FIRST_PAIRS: u64 = 1 << 16;
@@ -39,13 +40,15 @@ struct Progress {
 impl Job<'_> {
     /// In memory.
     pub(crate) fn run(&self) -> Result<FormFactors, Error> {
-        let needs = self.needs();
-        needs.check_memory()?;
-        let estimation = Estimation::new(self.mesh, self.estimator);
-        self.begin(&needs, 0, &estimation);
+        self.needs().check_memory()?;
+        Ok(self.run_in_memory(&Estimation::new(self.mesh, self.estimator)))
+    }
+
+    fn run_in_memory(&self, estimation: &Estimation<'_>) -> FormFactors {
+        self.begin(&self.needs(), 0, estimation);
         let made = estimation.run(&|pairs| self.observer.advance(pairs));
         self.observer.end();
-        Ok(made)
+        made
     }
 
     /// In a draft of the artifact's file, which an interrupted run may have begun. The caller has
@@ -64,28 +67,22 @@ impl Job<'_> {
             Sources::Cached => self.resume(store, id, &blank, &estimation),
             Sources::Computed => None,
         };
-        if resumed.is_none() {
-            // It would only take the room that is needed now.
-            Draft::discard(store, id);
-        }
-        let written = resumed.as_ref().map_or(0, |p| p.draft.written());
-        needs.check_disk(store, 4 * written)?;
         let begun = match resumed {
-            Some(progress) => Some(progress),
-            None => {
-                let draft = Draft::begin(store, id, &blank, needs.pairs);
-                usable(draft, self.observer, id).map(|draft| Progress {
-                    draft,
-                    tally: Tally::new(self.mesh.patches.len()),
-                    rows: 0,
-                    saved: 0,
-                })
+            Some(progress) => {
+                needs.check_disk(store, 4 * progress.saved)?;
+                Some(progress)
             }
+            None => self.begin_draft(store, id, &blank)?.map(|draft| Progress {
+                draft,
+                tally: Tally::new(self.mesh.patches.len()),
+                rows: 0,
+                saved: 0,
+            }),
         };
         let Some(mut progress) = begun else {
-            return Ok((self.run()?, false));
+            return Ok((self.run_in_memory(&estimation), false));
         };
-        self.begin(&needs, written, &estimation);
+        self.begin(&needs, progress.saved, &estimation);
         let written = progress.write(&estimation, self.observer);
         self.observer.end();
         let saved = progress.saved;
@@ -93,6 +90,22 @@ impl Job<'_> {
             .and_then(|()| self.finish(progress, &estimation))
             .map(|made| (made, true))
             .map_err(|error| interrupted(&error, saved as f64 / needs.pairs as f64, sources))
+    }
+
+    /// A new draft, if the cache can be used and the disk has room, without what an interrupted
+    /// writer has left.
+    pub(crate) fn begin_draft(
+        &self,
+        store: &Store,
+        id: &Id<'_>,
+        blank: &FactorFacts,
+    ) -> Result<Option<Draft>, Error> {
+        let needs = self.needs();
+        // It would only take the room that is needed now.
+        Draft::discard(store, id);
+        needs.check_disk(store, 0)?;
+        let draft = Draft::begin(store, id, blank, needs.pairs);
+        Ok(usable(draft, self.observer, id))
     }
 
     pub(crate) fn needs(&self) -> Needs {

@@ -55,11 +55,7 @@ impl Scene {
 
 /// Reads and checks a scene file (TOML, or `.vs3` of View3D), and the mesh files that it names.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
-    let ends_in = |ending| {
-        path.extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case(ending))
-    };
-    if ends_in("obj") {
+    if ends_in(path, "obj") {
         let help = "write a scene file with a surface: mesh = { file = \"NAME.obj\" }";
         return Err(SceneError::of_file(
             path,
@@ -71,18 +67,25 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
         let title = format!("cannot read the scene: {error}");
         SceneError::of_file(path, &title, "give the path of a scene file (.toml, .vs3)")
     };
-    if ends_in("vs3") {
+    if ends_in(path, "vs3") {
         // Comments and names may be in any encoding.
         let bytes = std::fs::read(path).map_err(unreadable)?;
-        let text = &String::from_utf8_lossy(&bytes);
-        return vs3::parse(&Source { path, text });
+        return parse(path, &String::from_utf8_lossy(&bytes));
     }
-    let text = std::fs::read_to_string(path).map_err(unreadable)?;
-    parse(path, &text)
+    parse(path, &std::fs::read_to_string(path).map_err(unreadable)?)
 }
 
-/// Checks the text of a scene file; `path` is what errors name and meshes are relative to.
+fn ends_in(path: &Path, ending: &str) -> bool {
+    path.extension()
+        .is_some_and(|found| found.eq_ignore_ascii_case(ending))
+}
+
+/// Checks the text of a scene file; `path` says by its ending what kind it is, is what errors name,
+/// and meshes are relative to it.
 pub fn parse(path: &Path, text: &str) -> Result<Scene, SceneError> {
+    if ends_in(path, "vs3") {
+        return vs3::parse(&Source { path, text });
+    }
     let source = Source { path, text };
     let file: SceneFile = toml::from_str(text).map_err(|error| {
         let complaint = Complaint::new("cannot read this scene", error.message());

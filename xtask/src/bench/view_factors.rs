@@ -4,11 +4,11 @@
 //! README are made on, and had an rms error of 3.7e-6 at 313 rectangles. It is not run here: its
 //! figures are constants, and seconds on other machines compare to them only roughly.
 
-use super::{Figure, Target};
+use super::{Figure, Target, generated};
 use crate::generate::nested_box;
 use radiosity::form_factors::{Estimator, FormFactors, estimate};
-use radiosity::geometry::{Mesh, subdivide};
-use radiosity::scene::{Scene, load};
+use radiosity::geometry::Mesh;
+use radiosity::scene::Scene;
 use radiosity::{By, Error, FactorTable};
 use std::path::Path;
 use std::time::Instant;
@@ -141,16 +141,7 @@ fn best(mesh: &Mesh, size: &Size) -> (f64, FormFactors) {
 
 fn boxed(root: &Path, elements: u32, obstacles: u32) -> Result<(Scene, Mesh), Error> {
     let text = nested_box::vs3(root, elements, obstacles).map_err(Error::Input)?;
-    let path = root.join(format!("out/box-{elements}-{obstacles}.vs3"));
-    let written =
-        std::fs::create_dir_all(root.join("out")).and_then(|()| std::fs::write(&path, text));
-    written.map_err(|error| Error::Output {
-        path: path.clone(),
-        error,
-    })?;
-    let scene = load(&path)?;
-    let mesh = subdivide(&scene.geometry, scene.divisions);
-    Ok((scene, mesh.map_err(|error| Error::Mesh(error.to_string()))?))
+    generated("box.vs3", &text)
 }
 
 /// The exact factors between the 313 rectangles, by rows.

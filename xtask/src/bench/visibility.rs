@@ -3,12 +3,11 @@
 //! Embree (Debian's `libembree-dev`) is no dependency: `embree.c` is compiled by the system's C compiler
 //! when the bench runs, and left out with a message where that fails.
 
-use super::{Figure, Target, line};
+use super::{Figure, Target, generated};
 use crate::generate::blob;
 use radiosity::Error;
 use radiosity::form_factors::{Estimator, estimate};
-use radiosity::geometry::{Bundle, DVec3, Mesh, Occluders, Patch, Walls, subdivide};
-use radiosity::scene::load;
+use radiosity::geometry::{Bundle, DVec3, Mesh, Occluders, Patch, Walls};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::path::{Path, PathBuf};
@@ -25,7 +24,8 @@ const PROMISE: f64 = 1.5;
 const TOLERANCE: f64 = 0.01;
 
 pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
-    let mesh = blob_in_a_box(root)?;
+    let text = blob::vs3(TRIANGLES).map_err(Error::Input)?;
+    let (_, mesh) = generated("blob.vs3", &text)?;
     let walls = Walls::new(&mesh);
     let occluders = Occluders::of(&walls.polygons);
     let bundles = bundles(&mesh, &walls);
@@ -59,7 +59,7 @@ pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
                 promise,
             ));
         }
-        Err(problem) => line(&format!("no Embree to compare with: {problem}")),
+        Err(problem) => eprintln!("no Embree to compare with: {problem}"),
     }
     let start = Instant::now();
     let tolerance = TOLERANCE;
@@ -69,24 +69,6 @@ pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
     figures.push(figure("stage.seconds", seconds, what, None));
     super::show(&figures, json);
     Ok(())
-}
-
-fn blob_in_a_box(root: &Path) -> Result<Mesh, Error> {
-    let text = blob::vs3(TRIANGLES).map_err(Error::Input)?;
-    let path = root.join(format!("out/blob-{TRIANGLES}.vs3"));
-    write(&path, text.as_bytes())?;
-    let scene = load(&path)?;
-    let mesh = subdivide(&scene.geometry, scene.divisions);
-    mesh.map_err(|error| Error::Mesh(error.to_string()))
-}
-
-fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    let folder = path.parent().unwrap_or(Path::new("."));
-    let written = std::fs::create_dir_all(folder).and_then(|()| std::fs::write(path, bytes));
-    written.map_err(|error| Error::Output {
-        path: path.to_owned(),
-        error,
-    })
 }
 
 /// Eight segments between random points of two patches that face each other, as the estimators ask.
@@ -132,7 +114,9 @@ fn ours(occluders: &Occluders, bundles: &[Bundle]) -> (f64, usize) {
 fn embree(root: &Path, walls: &Walls, bundles: &[Bundle]) -> Result<(f64, usize), String> {
     let program = compiled(root)?;
     let input = root.join("out/embree-input.bin");
-    write(&input, &input_of(walls, bundles)).map_err(|error| error.to_string())?;
+    std::fs::create_dir_all(root.join("out"))
+        .and_then(|()| std::fs::write(&input, input_of(walls, bundles)))
+        .map_err(|error| format!("cannot write {}: {error}", input.display()))?;
     let output = Command::new(program).arg(&input).output();
     let _ = std::fs::remove_file(&input);
     let output = output.map_err(|error| error.to_string())?;

@@ -85,13 +85,13 @@ fn factor_lines(found: &FactorInspection) -> Vec<String> {
     );
     let mut lines = vec![
         labelled("form factors", &made),
-        labelled("rows", &row_line(&found.summary)),
+        labelled("rows", &row_line(&found.rows)),
     ];
-    let more = error_line(&found.summary)
+    let more = error_line(&found.rows)
         .into_iter()
-        .chain(closure_line(&found.summary));
+        .chain(closure_line(&found.rows));
     lines.extend(more.map(|line| indented(&line)));
-    let classes = found.summary.classes.as_ref();
+    let classes = found.rows.classes.as_ref();
     lines.extend(classes.map(|c| indented(&class_line(c, found.patches))));
     lines.push(labelled(
         "closure",

@@ -1,7 +1,6 @@
 //! What View3D's files mean, and what is said of wrong ones.
 
 use crate::Scene;
-use crate::source::Source;
 use proptest::prelude::*;
 use radiosity_geometry::{Divisions, Mesh, subdivide};
 use std::fmt::Write;
@@ -32,8 +31,7 @@ S 5 this is not read
 ";
 
 fn parse(text: &str) -> Result<Scene, String> {
-    let path = Path::new("scenes/room.vs3");
-    crate::vs3::parse(&Source { path, text }).map_err(|error| error.to_string())
+    crate::parse(Path::new("scenes/room.vs3"), text).map_err(|error| error.to_string())
 }
 
 fn mesh(scene: &Scene) -> Mesh {
