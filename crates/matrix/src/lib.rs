@@ -5,6 +5,10 @@
 //!
 //! This crate knows nothing of what its numbers mean, nor of files.
 
+mod sweep;
+
+pub use sweep::{Triple, Update};
+
 use rayon::prelude::*;
 use std::fmt;
 use std::ops::Range;

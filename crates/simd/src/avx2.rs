@@ -33,6 +33,20 @@ unsafe fn narrow(numbers: F64) -> F32 {
     F32([unsafe { _mm256_set_m128(_mm256_cvtpd_ps(high), _mm256_cvtpd_ps(low)) }])
 }
 
+/// Only where the processor has the instructions.
+#[inline(always)]
+unsafe fn widen(numbers: F32) -> F64 {
+    let [numbers] = numbers.0;
+    // SAFETY: the caller's.
+    unsafe {
+        let high = _mm256_extractf128_ps::<1>(numbers);
+        F64([
+            _mm256_cvtps_pd(_mm256_castps256_ps128(numbers)),
+            _mm256_cvtps_pd(high),
+        ])
+    }
+}
+
 macro_rules! compare {
     ($name:ident, $register:ty, $compare:ident, $relation:ident, $bits:ident) => {
         /// Only where the processor has the instructions.

@@ -34,6 +34,15 @@ unsafe fn narrow(numbers: F64) -> F32 {
         .map(|register| unsafe { _mm512_cvtpd_ps(register) }))
 }
 
+/// Only where the processor has the instructions.
+#[inline(always)]
+unsafe fn widen(numbers: F32) -> F64 {
+    // SAFETY: the caller's.
+    F64(numbers
+        .0
+        .map(|register| unsafe { _mm512_cvtps_pd(register) }))
+}
+
 macro_rules! masked {
     (
         $register:ty, $less:ident, $less_or_equal:ident, $compare:ident, $select:ident,

@@ -58,6 +58,11 @@ pub trait Simd: Copy {
     fn splat_f64(self, number: f64) -> Self::F64;
     /// Rounds to single precision.
     fn narrow(self, numbers: Self::F64) -> Self::F32;
+    /// The same numbers in double precision.
+    fn widen(self, numbers: Self::F32) -> Self::F64;
+    /// Has the processor fetch what stands so many numbers after the first, be it past the end:
+    /// a hint, without any effect but on time.
+    fn prefetch(self, numbers: &[f32], ahead: usize);
 }
 
 /// Eight numbers. Comparisons answer with one bit per lane, the first lane lowest; nothing

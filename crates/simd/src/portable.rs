@@ -38,6 +38,14 @@ impl Simd for Portable {
     fn narrow(self, numbers: Array<f64>) -> Array<f32> {
         Array(numbers.0.map(|number| number as f32))
     }
+
+    #[inline(always)]
+    fn widen(self, numbers: Array<f32>) -> Array<f64> {
+        Array(numbers.0.map(f64::from))
+    }
+
+    #[inline(always)]
+    fn prefetch(self, _: &[f32], _: usize) {}
 }
 
 macro_rules! operator {

@@ -190,6 +190,18 @@ macro_rules! entrance {
                 // SAFETY: see `run`.
                 unsafe { narrow(numbers) }
             }
+
+            #[inline(always)]
+            fn widen(self, numbers: F32) -> F64 {
+                // SAFETY: see `run`.
+                unsafe { widen(numbers) }
+            }
+
+            #[inline(always)]
+            fn prefetch(self, numbers: &[f32], ahead: usize) {
+                // SAFETY: see `run`. No address is wrong for a hint.
+                unsafe { _mm_prefetch::<_MM_HINT_T1>(numbers.as_ptr().wrapping_add(ahead).cast()) }
+            }
         }
     };
 }

@@ -87,6 +87,20 @@ impl Kernel for Narrow {
     }
 }
 
+/// Floats, to be made doubles; what comes next is asked for, which changes nothing.
+struct Widen([f32; LANES]);
+
+impl Kernel for Widen {
+    type Output = [u64; LANES];
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> [u64; LANES] {
+        simd.prefetch(&self.0, 1 << 40);
+        let lanes = simd.widen(simd.f32(&self.0)).lanes();
+        lanes.map(f64::to_bits)
+    }
+}
+
 everything!(f32, f32, splat_f32);
 everything!(f64, f64, splat_f64);
 
@@ -117,6 +131,16 @@ proptest! {
         let expected = numbers.map(|x| (x as f32).to_bits());
         for set in InstructionSet::available() {
             prop_assert_eq!(set.run(Narrow(numbers)), expected, "{}", set.name());
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn widening(numbers in lanes(proptest::num::f32::NORMAL | proptest::num::f32::SUBNORMAL)) {
+        let expected = numbers.map(|x| f64::from(x).to_bits());
+        for set in InstructionSet::available() {
+            prop_assert_eq!(set.run(Widen(numbers)), expected, "{}", set.name());
         }
     }
 }

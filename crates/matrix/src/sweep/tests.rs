@@ -1,0 +1,141 @@
+//! Sweeps against the loops of textbooks, in double precision.
+
+use super::*;
+use crate::packed_len;
+use proptest::prelude::*;
+
+/// Numbers in [0, 1) that are not too regular.
+fn number(seed: usize) -> f32 {
+    (seed as u32).wrapping_mul(2_654_435_761).rotate_left(16) as f32 / u32::MAX as f32
+}
+
+/// Rows that sum to at most 1.
+fn matrix(size: usize) -> SymmetricMatrix {
+    let values = (0..packed_len(size)).map(|k| number(k) / size as f32);
+    SymmetricMatrix::new(size, values.collect::<Vec<f32>>()).unwrap()
+}
+
+fn vectors(size: usize, triples: usize) -> Vec<Triple<f32>> {
+    let triple = |k: usize| std::array::from_fn(|c| number(1_000_003 * c + 7 * k));
+    (0..size * triples).map(triple).collect()
+}
+
+/// Half of what it was, and half of the sum: of the size of 1.
+fn relax(sums: &[Triple<f64>], x: &mut [Triple<f32>]) {
+    for (sum, x) in sums.iter().zip(x) {
+        (0..3).for_each(|c| x[c] = (0.5 * f64::from(x[c]) + 0.5 * sum[c]) as f32);
+    }
+}
+
+/// What `update` was told, and what was returned.
+type Sums = (Vec<Triple<f64>>, Vec<Triple<f64>>);
+
+fn swept(
+    set: InstructionSet,
+    matrix: &SymmetricMatrix,
+    x: &mut [Triple<f32>],
+    triples: usize,
+) -> Sums {
+    let mut above = Vec::new();
+    let below = matrix.sweep_on(set, x, triples, &mut |i, sums, x| {
+        assert_eq!(above.len(), i * triples, "row after row");
+        above.extend_from_slice(sums);
+        relax(sums, x);
+    });
+    (above, below)
+}
+
+/// The same, entry by entry, with the values that the sweep found: rounding alone may differ.
+fn plain(matrix: &SymmetricMatrix, x: &[Triple<f32>], triples: usize) -> Sums {
+    let mut above = vec![[0.0; 3]; x.len()];
+    let mut below = above.clone();
+    for (i, row) in matrix.rows() {
+        for (j, &entry) in row.iter().enumerate() {
+            for k in 0..triples {
+                for c in 0..3 {
+                    above[i * triples + k][c] +=
+                        f64::from(entry) * f64::from(x[j * triples + k][c]);
+                    below[j * triples + k][c] +=
+                        f64::from(entry) * f64::from(x[i * triples + k][c]);
+                }
+            }
+        }
+    }
+    (above, below)
+}
+
+/// The most operations in single precision behind a sum: 64 products in a lane, or 16 rows.
+/// All terms are positive, so each operation errs by at most 2^-24 of the sum.
+const ROUNDING: f64 = 65.0 / (1 << 24) as f64;
+
+fn assert_close(found: &[Triple<f64>], expected: &[Triple<f64>]) {
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.as_flattened().iter().zip(expected.as_flattened()) {
+        assert!(
+            (found - expected).abs() <= ROUNDING * expected,
+            "{found} {expected}"
+        );
+    }
+}
+
+fn check(size: usize, triples: usize) {
+    let matrix = matrix(size);
+    let start = vectors(size, triples);
+    let mut x = start.clone();
+    let found = swept(InstructionSet::current(), &matrix, &mut x, triples);
+    let expected = plain(&matrix, &x, triples);
+    assert_close(&found.0, &expected.0);
+    assert_close(&found.1, &expected.1);
+    let mut relaxed = start;
+    relax(&found.0, &mut relaxed);
+    assert_eq!(x, relaxed, "what the updates made of the sums");
+}
+
+proptest! {
+    #[test]
+    fn every_sum_has_the_newest_values(size in 0usize..100, triples in 1usize..5) {
+        check(size, triples);
+    }
+}
+
+#[test]
+fn bands_and_tiles_join() {
+    for size in [511, 512, 513, 1023, 1024, 1025, 1041, 2063] {
+        check(size, 1);
+    }
+    check(1100, 2);
+}
+
+/// Large enough for steps on several threads.
+#[test]
+fn neither_threads_nor_instruction_sets_have_a_part_in_the_result() {
+    let size = 4200;
+    let matrix = matrix(size);
+    let run = |set: InstructionSet, threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        let mut x = vectors(size, 1);
+        let sums = pool.install(|| swept(set, &matrix, &mut x, 1));
+        (x, sums)
+    };
+    let expected = run(InstructionSet::current(), 1);
+    for threads in [2, 3, 5] {
+        assert!(
+            run(InstructionSet::current(), threads) == expected,
+            "{threads} threads"
+        );
+    }
+    for set in InstructionSet::available() {
+        assert!(run(set, 2) == expected, "{}", set.name());
+    }
+}
+
+#[test]
+fn nothing_is_done_without_vectors() {
+    let below = matrix(5).sweep(&mut [], 0, &mut |_, _, _| {
+        panic!("there is nothing to update")
+    });
+    assert!(below.is_empty());
+}
