@@ -1,6 +1,7 @@
 //! The tables of a scene file, as they are written.
 
 use crate::camera::CameraTable;
+use crate::light::LightTable;
 use crate::material::MaterialTable;
 use crate::settings::{DiscretizationTable, FormFactorTable, ImageTable, SolverTable};
 use crate::surface::SurfaceTable;
@@ -22,5 +23,7 @@ pub(crate) struct SceneFile {
     #[serde(default)]
     pub(crate) solver: SolverTable,
     pub(crate) materials: BTreeMap<String, MaterialTable>,
+    #[serde(default)]
+    pub(crate) lights: BTreeMap<Spanned<String>, LightTable>,
     pub(crate) surfaces: Vec<Spanned<SurfaceTable>>,
 }

@@ -8,6 +8,7 @@
 
 mod camera;
 mod file;
+mod light;
 mod material;
 mod mesh;
 mod obj;
@@ -21,8 +22,11 @@ mod vs3;
 #[cfg(test)]
 mod tests;
 
+pub use light::{Light, MOST_DIMMING};
 pub use material::Material;
 pub use scene::{Scene, load, parse};
-pub use settings::{FormFactorSettings, ImageSettings, Mode, SolverSettings};
+pub use settings::{
+    Automatic, FormFactorSettings, ImageSettings, Mode, Relaxation, SolverMethod, SolverSettings,
+};
 pub use source::SceneError;
 pub use surface::Surface;

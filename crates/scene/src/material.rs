@@ -1,6 +1,6 @@
 //! `[materials.NAME]`.
 
-use crate::source::{SceneError, Source};
+use crate::source::{Complaint, SceneError, Source};
 use crate::values::{Color, require};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -16,6 +16,8 @@ pub struct Material {
     /// Radiant exitance that the surface emits itself, per channel, W/m^2: 0, or
     /// between 1e-30 and 1e30.
     pub emission: [f64; 3],
+    /// The light that it belongs to, by its number in the scene, if it emits.
+    pub light: Option<usize>,
 }
 
 /// What radiosities in single precision can follow.
@@ -26,13 +28,16 @@ const EMISSION: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
 pub(crate) struct MaterialTable {
     reflectance: Spanned<Color>,
     emission: Option<Spanned<Color>>,
+    light: Option<Spanned<String>>,
 }
 
+/// The materials, and the names of the lights that they belong to.
 pub(crate) fn materials(
     source: &Source<'_>,
     tables: BTreeMap<String, MaterialTable>,
-) -> Result<Vec<Material>, SceneError> {
-    let check = |(name, table): (String, MaterialTable)| {
+) -> Result<(Vec<Material>, Vec<String>), SceneError> {
+    let mut lights = Vec::new();
+    let mut check = |(name, table): (String, MaterialTable)| {
         let share = |c: &Color| c.0.iter().all(|x| (0.0..=1.0).contains(x));
         let what = format!("the reflectance of `{name}`");
         require(source, &table.reflectance, share, &what, "in [0, 1]")?;
@@ -47,11 +52,51 @@ pub(crate) fn materials(
                 "0, or between 1e-30 and 1e30",
             )?;
         }
+        let emission = table.emission.map_or([0.0; 3], |e| e.get_ref().0);
+        let emits = emission != [0.0; 3];
         Ok(Material {
+            light: light_name(source, &table.light, &name, emits)?
+                .map(|light| number_of(&mut lights, light)),
             reflectance: table.reflectance.get_ref().0,
-            emission: table.emission.map_or([0.0; 3], |e| e.get_ref().0),
+            emission,
             name,
         })
     };
-    tables.into_iter().map(check).collect()
+    let materials: Result<Vec<Material>, SceneError> = tables.into_iter().map(&mut check).collect();
+    Ok((materials?, lights))
+}
+
+/// The light of a material: the one it names, or one of its own.
+fn light_name(
+    source: &Source<'_>,
+    named: &Option<Spanned<String>>,
+    material: &str,
+    emits: bool,
+) -> Result<Option<String>, SceneError> {
+    let Some(named) = named else {
+        return Ok(emits.then(|| material.to_owned()));
+    };
+    let complain =
+        |title: String, label: &str| Err(source.error(named.span(), &Complaint::new(title, label)));
+    if !emits {
+        let title = format!("`{material}` belongs to a light but does not emit");
+        return complain(title, "remove this, or add an `emission`");
+    }
+    let name = named.get_ref();
+    if name.trim().is_empty() {
+        let title = format!("the light of `{material}` has an empty name");
+        return complain(title, "give it a name");
+    }
+    Ok(Some(name.clone()))
+}
+
+/// The number of a name, which is added if it is new.
+fn number_of(names: &mut Vec<String>, name: String) -> usize {
+    names
+        .iter()
+        .position(|known| *known == name)
+        .unwrap_or_else(|| {
+            names.push(name);
+            names.len() - 1
+        })
 }

@@ -2,6 +2,7 @@
 
 use crate::camera::camera;
 use crate::file::SceneFile;
+use crate::light::{Light, lights};
 use crate::material::{Material, materials};
 use crate::settings::{FormFactorSettings, ImageSettings, SolverSettings};
 use crate::source::{Complaint, SceneError, Source};
@@ -21,6 +22,8 @@ pub struct Scene {
     pub surfaces: Vec<Surface>,
     /// All materials.
     pub materials: Vec<Material>,
+    /// The groups of emitters that are dimmed together.
+    pub lights: Vec<Light>,
     /// The camera, if the scene has one.
     pub camera: Option<Camera>,
     /// The picture.
@@ -92,7 +95,8 @@ pub fn parse(path: &Path, text: &str) -> Result<Scene, SceneError> {
         source.error(error.span().unwrap_or(0..0), &complaint)
     })?;
     let camera = file.camera.as_ref().map(|table| camera(&source, table));
-    let materials = materials(&source, file.materials)?;
+    let (materials, names) = materials(&source, file.materials)?;
+    let lights = lights(&source, &names, &file.lights)?;
     let context = Context {
         source,
         folder: path.parent().unwrap_or(Path::new("")),
@@ -110,6 +114,7 @@ pub fn parse(path: &Path, text: &str) -> Result<Scene, SceneError> {
         form_factors: file.form_factors.check(&source)?,
         solver: file.solver.check(&source)?,
         materials,
+        lights,
         closed: false,
         notes: Vec::new(),
     })

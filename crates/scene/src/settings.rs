@@ -61,10 +61,46 @@ pub enum Mode {
 /// The solver stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolverSettings {
+    /// How to solve.
+    pub method: SolverMethod,
+    /// How much Gauss-Seidel overdoes each change.
+    pub relaxation: Relaxation,
     /// Relative residual to reach.
     pub tolerance: f64,
-    /// Most sweeps to take.
+    /// Most passes over the matrix to take.
     pub max_sweeps: u32,
+}
+
+/// The solvers by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SolverMethod {
+    /// Row after row, with the newest values.
+    GaussSeidel,
+    /// The fewest passes where light is reflected often.
+    ConjugateGradients,
+}
+
+/// How much each change is overdone.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(
+    rename_all = "kebab-case",
+    untagged,
+    expecting = "a number between 0 and 2, or \"auto\""
+)]
+pub enum Relaxation {
+    /// By a factor between 0 and 2; 1 is plain Gauss-Seidel.
+    Factor(f64),
+    /// By what the first sweeps suggest.
+    Named(Automatic),
+}
+
+/// The name of a choice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Automatic {
+    /// The solver chooses.
+    Auto,
 }
 
 /// Well below what patches of constant radiosity cost, and for engineers who want factors.
@@ -105,6 +141,8 @@ pub(crate) struct FormFactorTable {
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SolverTable {
+    method: Option<SolverMethod>,
+    relaxation: Option<Spanned<Relaxation>>,
     tolerance: Option<Spanned<f64>>,
     max_sweeps: Option<Spanned<u32>>,
 }
@@ -216,7 +254,24 @@ impl SolverTable {
         let tolerance = ("`tolerance`", "between 0 and 1, neither included");
         let sweeps = ("`max_sweeps`", "at least 1");
         let inside = |x: f64| x > 0.0 && x < 1.0;
+        let relaxation = (
+            "`relaxation`",
+            "between 0 and 2, neither included, or \"auto\"",
+        );
+        let converges = |relaxation| match relaxation {
+            Relaxation::Factor(factor) => factor > 0.0 && factor < 2.0,
+            Relaxation::Named(Automatic::Auto) => true,
+        };
+        let auto = Relaxation::Named(Automatic::Auto);
         Ok(SolverSettings {
+            method: self.method.unwrap_or(SolverMethod::GaussSeidel),
+            relaxation: value_or(
+                source,
+                self.relaxation.as_ref(),
+                auto,
+                converges,
+                relaxation,
+            )?,
             tolerance: value_or(source, self.tolerance.as_ref(), 1e-6, inside, tolerance)?,
             max_sweeps: value_or(source, self.max_sweeps.as_ref(), 200, |n| n >= 1, sweeps)?,
         })

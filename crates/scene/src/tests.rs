@@ -1,6 +1,6 @@
 //! What scenes mean when they are right, and what is said when they are wrong.
 
-use crate::{Mode, Scene, parse};
+use crate::{Automatic, Mode, Relaxation, Scene, SolverMethod, parse};
 use proptest::prelude::*;
 use radiosity_geometry::{DVec3, Divisions, Shape, SurfaceId};
 use std::fmt::Write;
@@ -76,6 +76,33 @@ fn what_is_not_said_has_defaults() {
         (scene.solver.tolerance, scene.solver.max_sweeps),
         (1e-6, 200)
     );
+    assert_eq!(scene.solver.method, SolverMethod::GaussSeidel);
+    assert_eq!(scene.solver.relaxation, Relaxation::Named(Automatic::Auto));
+}
+
+#[test]
+fn materials_belong_to_lights() {
+    let light = |scene: &Scene, material: usize| scene.materials[material].light;
+    let scene = parse_text(GOOD).unwrap();
+    assert_eq!((light(&scene, 0), light(&scene, 1)), (Some(0), None));
+    assert_eq!(scene.lights[0].name, "lamp");
+    assert_eq!(scene.lights[0].dimming(), [1.0; 3]);
+    let more = "[lights.ceiling]\ndim = 0.5\ntint = [1, 0.5, 0]\n\
+        [materials.tube]\nreflectance = 0\nemission = 3\nlight = \"ceiling\"\n\
+        [materials.lamp]";
+    let text = GOOD.replace("[materials.lamp]", more);
+    let scene = parse_text(&text).unwrap();
+    let names: Vec<&str> = scene
+        .lights
+        .iter()
+        .map(|light| light.name.as_str())
+        .collect();
+    assert_eq!(names, ["lamp", "ceiling"]);
+    assert_eq!(scene.lights[1].dimming(), [0.5, 0.25, 0.0]);
+    let both = text.replace("emission = 12", "emission = 12\nlight = \"ceiling\"");
+    let scene = parse_text(&both).unwrap();
+    assert_eq!(scene.lights.len(), 1);
+    assert_eq!((light(&scene, 0), light(&scene, 1)), (Some(0), Some(0)));
 }
 
 /// One mistake per line; the messages are in the snapshot, to be read as a user would.
@@ -100,6 +127,15 @@ fn mistakes_are_explained() {
              triangle = [[0, 0, 9], [1, 0, 9], [0, 1, 9]]\n[[surfaces]]\nname = \"c\"\ngroup = \"wing\"",
         ),
         ("emission = 12", "emission = 1e-170"),
+        ("reflectance = 0.75", "reflectance = 0.75\nlight = \"lamp\""),
+        ("emission = 12", "emission = 12\nlight = \" \""),
+        ("[camera]", "[lights.lampe]\ndim = 0.5\n[camera]"),
+        ("[camera]", "[lights.lamp]\ndim = -1\n[camera]"),
+        ("[camera]", "[lights.lamp]\ntint = [1, 2, inf]\n[camera]"),
+        ("[camera]", "[lights.lamp]\ndimm = 1\n[camera]"),
+        ("[camera]", "[solver]\nrelaxation = 2\n[camera]"),
+        ("[camera]", "[solver]\nrelaxation = \"fast\"\n[camera]"),
+        ("[camera]", "[solver]\nmethod = \"jacobi\"\n[camera]"),
         ("max_patch_edge = 0.25", "materials = { base = \"white\" }"),
         ("edge_b = [0, 1, 0]", "edge_b = [2, 0, 0]"),
         ("edge_b = [0, 1, 0]", "edge_b = [inf, 0, 0]"),

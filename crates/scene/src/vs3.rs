@@ -69,6 +69,7 @@ pub(crate) fn parse(source: &Source<'_>) -> Result<Scene, SceneError> {
         geometry: shapes,
         surfaces,
         materials,
+        lights: Vec::new(),
         camera: None,
         image: ImageTable::default().check(source)?,
         divisions: Divisions::uniform(1),
@@ -212,6 +213,7 @@ fn material(materials: &mut Vec<Material>, emittance: f64) -> usize {
         name,
         reflectance: [1.0 - emittance; 3],
         emission: [0.0; 3],
+        light: None,
     });
     materials.len() - 1
 }
