@@ -2,7 +2,7 @@
 
 use radiosity::cache::Store;
 use radiosity::geometry::{Camera, DVec3, Divisions};
-use radiosity::scene::{Mode, Scene};
+use radiosity::scene::{Material, Mode, Scene};
 use radiosity::solver::Solution;
 use radiosity::{How, Observer, Pipeline, Silent, Solved, Sources, Stage};
 use radiosity_tests::shipped;
@@ -101,7 +101,7 @@ fn a_cold_run_equals_a_warm_one_byte_for_byte() {
     let render = |cache: Option<&Store>| {
         let pipeline = Pipeline::new(&bench.scene, cache, &Silent).unwrap();
         let solved = pipeline.solution(Sources::Cached).unwrap();
-        let pictures = pipeline.pictures(&solved.solution).unwrap();
+        let pictures = pipeline.pictures(&solved.radiosity).unwrap();
         (solved.solution, pictures)
     };
     let cold: (Solution, _) = render(None);
@@ -161,8 +161,23 @@ fn a_changed_reflectance_needs_a_solution() {
 #[test]
 fn a_changed_emission_needs_a_solution() {
     assert_eq!(
-        Bench::after(|s| s.materials[0].emission[1] = 0.5),
+        Bench::after(|s| lamp(s).emission[1] = 0.5),
         changed_solution()
+    );
+}
+
+fn lamp(scene: &mut Scene) -> &mut Material {
+    let mut materials = scene.materials.iter_mut();
+    materials.find(|material| material.light.is_some()).unwrap()
+}
+
+#[test]
+fn dimmed_lights_need_nothing() {
+    assert_eq!(Bench::after(|s| s.lights[0].dim = 0.5), none());
+    assert_eq!(Bench::after(|s| s.lights[0].tint[2] = 7.0), none());
+    assert_eq!(
+        Bench::after(|s| s.lights[0].name = "renamed".to_owned()),
+        none()
     );
 }
 

@@ -21,7 +21,7 @@ fn check(scene: &str, divisions: u32, points: u32) {
     scene.form_factors.points = points;
     (scene.image.width, scene.image.height) = (96, 72);
     let pipeline = pipeline(&scene);
-    let pictures = pipeline.pictures(&solve(&pipeline)).unwrap();
+    let pictures = pipeline.pictures(&solve(&pipeline).radiosity).unwrap();
     let tone = ToneMap {
         exposure: scene.image.exposure,
         gamma: GAMMA,

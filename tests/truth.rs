@@ -11,14 +11,14 @@ use radiosity_tests::{picture_errors, pipeline, radiosity_errors, shipped, solve
 fn the_course_is_reproduced() {
     let scene = shipped("cornell");
     let pipeline = pipeline(&scene);
-    let solution = solve(&pipeline);
-    let errors = radiosity_errors(&scene, &pipeline, &solution);
+    let solved = solve(&pipeline);
+    let errors = radiosity_errors(&scene, &pipeline, &solved);
     let (rmse, bias) = (errors.rmse_percent, errors.bias_percent);
     println!("radiosities: RMSE {rmse:.3} %, bias {bias:+.3} %");
     assert!((rmse - 4.50).abs() < 0.1, "RMSE {rmse}");
     assert!((bias - 1.63).abs() < 0.1, "bias {bias}");
 
-    let pictures = pipeline.pictures(&solution).unwrap();
+    let pictures = pipeline.pictures(&solved.radiosity).unwrap();
     let away_from_edges = |image| picture_errors(image, "0-2");
     let constant = away_from_edges(&pictures.constant);
     let smooth = away_from_edges(&pictures.smooth);
@@ -50,7 +50,7 @@ fn accurate_factors_leave_the_error_of_the_patches() {
     let tables = [12, 24].map(|n| {
         scene.divisions = Divisions::uniform(n);
         let pipeline = pipeline(&scene);
-        radiosity_table(&scene, pipeline.mesh(), &solve(&pipeline))
+        radiosity_table(&scene, pipeline.mesh(), &solve(&pipeline).radiosity)
     });
     let coarse = tables[1].coarsened(6).unwrap();
     for (found, n, most, bias) in [
@@ -76,7 +76,7 @@ fn accurate_factors_leave_the_error_of_the_patches() {
 fn triangles_are_as_good_as_rectangles() {
     let scene = shipped("cornell-triangles");
     let pipeline = pipeline(&scene);
-    let pictures = pipeline.pictures(&solve(&pipeline)).unwrap();
+    let pictures = pipeline.pictures(&solve(&pipeline).radiosity).unwrap();
     let away_from_edges = |image| picture_errors(image, "0-2");
     let smooth = away_from_edges(&pictures.smooth);
     println!(

@@ -8,8 +8,7 @@ pub use measure::{picture_errors, radiosity_errors, table_errors};
 pub use reference::{radiance, reference_table, regions};
 
 use radiosity::scene::{Scene, load};
-use radiosity::solver::Solution;
-use radiosity::{Pipeline, Silent, Sources};
+use radiosity::{Pipeline, Silent, Solved, Sources};
 use std::path::{Path, PathBuf};
 
 /// A folder or file of the checkout.
@@ -28,7 +27,7 @@ pub fn pipeline(scene: &Scene) -> Pipeline<'_> {
 }
 
 /// The solution of a pipeline.
-pub fn solve(pipeline: &Pipeline<'_>) -> Solution {
+pub fn solve(pipeline: &Pipeline<'_>) -> Solved {
     let solved = pipeline.solution(Sources::Cached);
-    solved.unwrap_or_else(|error| panic!("{error}")).solution
+    solved.unwrap_or_else(|error| panic!("{error}"))
 }

@@ -5,15 +5,14 @@ use radiosity::compare::{Errors, Table, compare_pictures, compare_tables};
 use radiosity::geometry::{Divisions, PixelFilter, subdivide};
 use radiosity::renderer::Image;
 use radiosity::scene::Scene;
-use radiosity::solver::Solution;
-use radiosity::{Pipeline, cells, radiosity_table};
+use radiosity::{Pipeline, Solved, cells, radiosity_table};
 
 /// The exposure at which the course shows its picture.
 const EXPOSURE: f64 = 4.0;
 
 /// The errors of radiosities of 12 x 12 patches against the table.
-pub fn radiosity_errors(scene: &Scene, pipeline: &Pipeline<'_>, solution: &Solution) -> Errors {
-    let found = radiosity_table(scene, pipeline.mesh(), solution);
+pub fn radiosity_errors(scene: &Scene, pipeline: &Pipeline<'_>, solved: &Solved) -> Errors {
+    let found = radiosity_table(scene, pipeline.mesh(), &solved.radiosity);
     table_errors(scene, &found, 12)
 }
 

@@ -125,7 +125,7 @@ impl SymmetricMatrix {
 }
 
 /// `sums += factor * x`, number by number.
-fn add_scaled(sums: &mut [Triple<f64>], factor: f32, x: &[Triple<f32>]) {
+pub(crate) fn add_scaled(sums: &mut [Triple<f64>], factor: f32, x: &[Triple<f32>]) {
     for (sum, x) in sums.iter_mut().zip(x) {
         for c in 0..3 {
             sum[c] += f64::from(factor) * f64::from(x[c]);

@@ -5,16 +5,14 @@ use radiosity_compare::{Cell, Row, Table};
 use radiosity_geometry::{Divisions, Face, Mesh, subdivide};
 use radiosity_reference::CellMean;
 use radiosity_scene::Scene;
-use radiosity_solver::Solution;
 
 /// The radiosities of all patches.
 ///
 /// Rows are in input order. On surfaces of one face, the cell is the patch's
 /// ([`radiosity_geometry::Patch::cell`]); on meshes it is the polygon of the mesh file, counted
 /// from 0, and the patch's position in it.
-pub fn radiosity_table(scene: &Scene, mesh: &Mesh, solution: &Solution) -> Table {
-    let radiosity = |patch: usize| solution.radiosity[patch].map(f64::from);
-    table(scene, mesh, |patch| (radiosity(patch), None))
+pub fn radiosity_table(scene: &Scene, mesh: &Mesh, radiosity: &[[f32; 3]]) -> Table {
+    table(scene, mesh, |patch| (radiosity[patch].map(f64::from), None))
 }
 
 /// Traced radiosities, with their standard errors, in the rows of [`radiosity_table`].

@@ -11,7 +11,7 @@ pub(crate) const FORM_FACTORS: &str = "form-factors";
 pub(crate) const CLOSURE: &str = "closure";
 pub(crate) const SOLUTION: &str = "solution";
 /// Raise it whenever the layout of anything here changes: it is part of every key.
-pub(crate) const VERSION: u32 = 6;
+pub(crate) const VERSION: u32 = 7;
 
 /// Beside the matrix of form factors.
 #[derive(Debug, Serialize, Deserialize)]
@@ -28,7 +28,13 @@ pub(crate) struct FactorFacts {
 }
 
 /// Beside the radiosities.
-pub(crate) type SolutionFacts = (Convergence, RowSummary);
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) struct SolutionFacts {
+    pub(crate) report: Convergence,
+    pub(crate) rows: RowSummary,
+    /// The names of the lights, in the order of their radiosities.
+    pub(crate) lights: Vec<String>,
+}
 
 impl FactorFacts {
     pub(crate) fn new(mesh: &Mesh, estimator: Estimator, made: &FormFactors) -> FactorFacts {

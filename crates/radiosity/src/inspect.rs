@@ -45,6 +45,7 @@ pub(crate) struct WorstRow {
 #[derive(Debug, Serialize)]
 pub(crate) struct SolutionInspection {
     pub(crate) patches: usize,
+    pub(crate) lights: Vec<String>,
     pub(crate) sweeps: usize,
     pub(crate) residual: f64,
     pub(crate) converged: bool,
@@ -119,11 +120,13 @@ impl Inspection {
             }
             SOLUTION => {
                 let artifact = opened.into_artifact::<SolutionFacts>()?;
-                let ((report, _), values) = artifact.into_values()?;
+                let (facts, values) = artifact.into_values()?;
+                let (report, lights) = (facts.report, facts.lights);
                 inspection.solution = Some(SolutionInspection {
-                    patches: values.as_ref().len() / 3,
+                    patches: values.as_ref().len() / 3 / lights.len().max(1),
+                    lights,
                     sweeps: report.residuals.len(),
-                    residual: report.residual(),
+                    residual: report.residual,
                     converged: report.converged,
                 });
             }

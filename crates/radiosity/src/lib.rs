@@ -20,7 +20,7 @@
 //! let scene = scene::load("scenes/cornell.toml".as_ref())?;
 //! let pipeline = Pipeline::new(&scene, None, &Silent)?;
 //! let solved = pipeline.solution(Sources::Cached)?;
-//! let pictures = pipeline.pictures(&solved.solution)?;
+//! let pictures = pipeline.pictures(&solved.radiosity)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -41,6 +41,7 @@ mod report;
 mod resources;
 mod rows;
 mod settings;
+mod solve_report;
 
 pub use artifact::{How, Origin, Sources};
 pub use error::Error;

@@ -6,13 +6,13 @@ use crate::error::Error;
 use crate::lines::{
     class_line, closed_line, closure_line, error_line, indented, row_line, scene_line,
 };
-use crate::pipeline::Pipeline;
+use crate::pipeline::{Pipeline, Solved};
 use crate::resources::{bytes, grouped};
 use crate::rows::RowSummary;
+use crate::solve_report::{SolveReport, solution_lines};
 use radiosity_form_factors::{Classes, ClosureFacts};
 use radiosity_geometry::Mesh;
 use radiosity_scene::Scene;
-use radiosity_solver::{Energy, Solution};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -100,30 +100,6 @@ impl RowReport {
 }
 
 #[derive(Debug, Serialize)]
-struct SolveReport {
-    seconds: f64,
-    cached: bool,
-    /// Why it was computed; null if cached.
-    reason: Option<String>,
-    sweeps: usize,
-    /// Relative residual of the solution.
-    residual: f64,
-    /// Whether the tolerance was reached.
-    converged: bool,
-    energy_balance: EnergyReport,
-}
-
-/// Per channel, in W.
-#[derive(Debug, Serialize)]
-struct EnergyReport {
-    emitted: [f64; 3],
-    absorbed: [f64; 3],
-    escaped: [f64; 3],
-    /// |emitted - absorbed - escaped| / emitted of the worst channel.
-    imbalance: f64,
-}
-
-#[derive(Debug, Serialize)]
 pub(crate) struct DisplayReport {
     pub(crate) seconds: f64,
 }
@@ -181,49 +157,12 @@ impl<'a> Report<'a> {
         });
     }
 
-    pub(crate) fn solution(&mut self, origin: &Origin, solution: &Solution) {
-        self.stage_line("solution", origin);
-        let report = &solution.report;
-        let (sweeps, residual) = (report.residuals.len(), report.residual());
-        let Energy {
-            emitted,
-            absorbed,
-            escaped,
-        } = report.energy;
-        let percent = |part: [f64; 3]| {
-            let whole: f64 = emitted.iter().sum();
-            let share = if whole > 0.0 {
-                part.iter().sum::<f64>() / whole
-            } else {
-                0.0
-            };
-            format!("{:.1} %", 100.0 * share)
-        };
-        self.terminal.line(&indented(&format!(
-            "{sweeps} sweep{} to residual {residual:.1e}; of the power, {} absorbed, {} escaped",
-            if sweeps == 1 { "" } else { "s" },
-            percent(absorbed),
-            percent(escaped),
-        )));
-        if !report.converged {
-            self.terminal.line(&indented(
-                "warning: the tolerance was not reached; allow more sweeps with --max-sweeps",
-            ));
+    pub(crate) fn solution(&mut self, solved: &Solved) {
+        self.stage_line("solution", &solved.origin);
+        for line in solution_lines(solved) {
+            self.terminal.line(&indented(&line));
         }
-        self.json.stages.solve = Some(SolveReport {
-            seconds: origin.seconds,
-            cached: origin.is_cached(),
-            reason: origin.reason().map(str::to_owned),
-            sweeps,
-            residual,
-            converged: report.converged,
-            energy_balance: EnergyReport {
-                emitted,
-                absorbed,
-                escaped,
-                imbalance: report.energy.imbalance(),
-            },
-        });
+        self.json.stages.solve = Some(SolveReport::of(solved));
     }
 
     pub(crate) fn display(&mut self, display: DisplayReport) {

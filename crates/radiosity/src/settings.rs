@@ -2,7 +2,7 @@
 
 use radiosity_form_factors::Estimator;
 use radiosity_renderer::ImageParams;
-use radiosity_scene::{Mode, Scene};
+use radiosity_scene::{Automatic, Light, Mode, Relaxation, Scene, SolverMethod};
 use radiosity_solver as solver;
 
 pub(crate) fn estimator(scene: &Scene) -> Estimator {
@@ -22,10 +22,24 @@ pub(crate) fn estimator(scene: &Scene) -> Estimator {
 }
 
 pub(crate) fn solver_params(scene: &Scene) -> solver::Params {
+    let settings = &scene.solver;
+    let relaxation = match settings.relaxation {
+        Relaxation::Factor(factor) => solver::Relaxation::Factor(factor),
+        Relaxation::Named(Automatic::Auto) => solver::Relaxation::Automatic,
+    };
     solver::Params {
-        tolerance: scene.solver.tolerance,
-        max_sweeps: scene.solver.max_sweeps,
+        method: match settings.method {
+            SolverMethod::GaussSeidel => solver::Method::GaussSeidel(relaxation),
+            SolverMethod::ConjugateGradients => solver::Method::ConjugateGradients,
+        },
+        tolerance: settings.tolerance,
+        max_passes: settings.max_sweeps,
     }
+}
+
+/// The factor on each light's emission.
+pub(crate) fn dimming(scene: &Scene) -> Vec<[f64; 3]> {
+    scene.lights.iter().map(Light::dimming).collect()
 }
 
 pub(crate) fn image_params(scene: &Scene) -> ImageParams {

@@ -51,7 +51,10 @@ fn render_reports_one_json_object() {
             "cached",
             "converged",
             "energy_balance",
+            "error",
+            "method",
             "reason",
+            "relaxation",
             "residual",
             "seconds",
             "sweeps"

@@ -1,52 +1,74 @@
 //! Where the power goes.
 
+use crate::problem::{Problem, Values};
 use crate::{Rgb, System};
 use serde::{Deserialize, Serialize};
 
-/// The power balance of a solution, per channel, in W (exitance times square scene units).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// A power balance per channel, in W (exitance times square scene units).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {
     /// Emitted by all patches.
     pub emitted: Rgb,
-    /// Absorbed by all patches.
+    /// Absorbed by the fronts of all patches.
     pub absorbed: Rgb,
-    /// Left without arriving at any front: into the background or onto backs. An estimator
-    /// whose row sums exceed 1 lets it come out too small, or negative.
-    pub escaped: Rgb,
+    /// Arrived at backs, by what patches see of them.
+    pub to_backs: Rgb,
+    /// Left the scene, by what patches see of nothing.
+    pub to_background: Rgb,
 }
 
 impl Energy {
-    /// Adds up the solution's power; `fronts` are the row sums of the form factors.
-    pub(crate) fn of(system: &System<'_>, radiosity: &[Rgb]) -> Energy {
-        let irradiance = system.irradiance(radiosity);
-        let total = system.total_area();
-        let row_sums = system.exchange.row_sums();
-        let mut energy = Energy {
-            emitted: [0.0; 3],
-            absorbed: [0.0; 3],
-            escaped: [0.0; 3],
-        };
-        for (i, &area) in system.areas.iter().enumerate() {
-            // What leaves patch i and arrives nowhere: A_i - sum_j S_ij.
-            let open_area = area - row_sums[i] * total;
+    /// The balance of each light, from its radiosities and their sums.
+    pub(crate) fn of_lights(
+        system: &System<'_>,
+        problem: &Problem<'_>,
+        radiosity: &Values<f32>,
+        sums: &Values<f64>,
+    ) -> Vec<Energy> {
+        let lights = problem.lights();
+        let mut energies = vec![Energy::default(); lights];
+        for (k, (x, sum)) in radiosity.iter().zip(sums).enumerate() {
+            let (i, light) = (k / lights, k % lights);
+            let (energy, unit) = (&mut energies[light], problem.units[light]);
+            let watts = system.areas[i] * unit;
             for c in 0..3 {
-                energy.emitted[c] += area * system.emission[i][c];
-                energy.absorbed[c] += area * (1.0 - system.reflectance[i][c]) * irradiance[i][c];
-                energy.escaped[c] += open_area * radiosity[i][c];
+                let irradiance = sum[c] / problem.areas[i];
+                let left = watts * f64::from(x[c]);
+                energy.emitted[c] += watts * problem.emission[k][c];
+                energy.absorbed[c] += watts * (1.0 - system.reflectance[i][c]) * irradiance;
+                energy.to_backs[c] += system.backs[i] * left;
+                energy.to_background[c] += system.background[i] * left;
             }
         }
-        energy
+        energies
     }
 
-    /// `|emitted - absorbed - escaped| / emitted` of the worst channel; channels without
-    /// emission count as balanced.
+    /// With another balance times a factor per channel.
+    pub(crate) fn plus(&self, other: &Energy, factor: &Rgb) -> Energy {
+        let sum = |a: &Rgb, b: &Rgb| std::array::from_fn(|c| a[c] + factor[c] * b[c]);
+        Energy {
+            emitted: sum(&self.emitted, &other.emitted),
+            absorbed: sum(&self.absorbed, &other.absorbed),
+            to_backs: sum(&self.to_backs, &other.to_backs),
+            to_background: sum(&self.to_background, &other.to_background),
+        }
+    }
+
+    /// What was emitted and is not accounted for, per channel: the residual, and the errors of the
+    /// form factors and of what patches see besides fronts. Negative where light came from nowhere.
+    pub fn missing(&self) -> Rgb {
+        std::array::from_fn(|c| {
+            self.emitted[c] - self.absorbed[c] - self.to_backs[c] - self.to_background[c]
+        })
+    }
+
+    /// The size of [`Energy::missing`] relative to what was emitted, of the worst channel; channels
+    /// without emission count as balanced.
     pub fn imbalance(&self) -> f64 {
+        let missing = self.missing();
         (0..3)
             .filter(|&c| self.emitted[c] > 0.0)
-            .map(|c| {
-                let missing = self.emitted[c] - self.absorbed[c] - self.escaped[c];
-                missing.abs() / self.emitted[c]
-            })
+            .map(|c| missing[c].abs() / self.emitted[c])
             .fold(0.0, f64::max)
     }
 }

@@ -1,248 +1,179 @@
-//! Stage 3: Gauss-Seidel on the stored half of the matrix.
+//! Gauss-Seidel, the reference among the methods, and over-relaxation.
 //!
-//! A sweep solves row after row for its own unknown, with the newest values of all others.
-//! Each stored number `S_ij` (`j < i`) is read once per sweep and used for both of its rows:
-//! in row `i` with the new `x_j`, and for row `j` of the *next* sweep with the new `x_i`. What
-//! row `i` gets from the rows below it is thus known before the sweep begins. When the sweep
-//! ends, the same sums with the new values are known, and their difference is the exact
-//! residual: `r_i = rho_i / A_i * (below_new - below_old)`.
+//! A sweep solves row after row for its own unknown, with the newest values of all others
+//! (Cohen & Wallace 1993, section 5.3.2):
+//!
+//! ```text
+//! x_i <- (1 - omega) x_i + omega (E_i + gain_i (sum_{j<i} S_ij x_j + sum_{j>i} S_ij x_j))
+//! ```
+//!
+//! with `omega = 1`. The first sum has this sweep's values, the second the last sweep's, so it is
+//! known before the sweep begins. When the sweep ends, both sums are known for the new values:
+//! the residual needs no further pass.
+//!
+//! Greater `omega` overdoes each change (successive over-relaxation). The system is that of a
+//! symmetric positive definite matrix, `A (1/rho - F)`, so every `omega` in (0, 2) converges
+//! (Ostrowski 1954). Which is best is known where every patch sees all others equally, of
+//! reflectance `r`. Take the place of a patch in the order as a number `t` from 0 to 1. A change
+//! that shrinks by the rate `q` per sweep then obeys
+//!
+//! ```text
+//! q e(t) = (1 - omega) e(t) + omega r (q int_0^t e + int_t^1 e) ,
+//! ```
+//!
+//! which has the solution `e = q^t` where `ln q = omega r (q - 1) / (q + omega - 1)`. So the
+//! observed `q` tells `r`; and with greater `omega`, `q` falls until it meets `omega - 1`, below
+//! which it does not come. Rooms turn out to be alike enough.
 
-use crate::Rgb;
-use crate::energy::Energy;
-use crate::power_iteration::spectral_radius;
-use crate::system::{Lanes, System, add_scaled, lanes, rgb};
+use crate::convergence::Progress;
+use crate::problem::{Problem, Values, worst};
+use crate::solve::Iteration;
+use radiosity_matrix::Triple;
 use serde::{Deserialize, Serialize};
 
-/// When to stop.
+/// How much a change is overdone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Params {
-    /// Relative residual `||E + rho F B - B|| / ||E||` to reach (area-weighted L2 norm over
-    /// patches and channels).
-    pub tolerance: f64,
-    /// Most sweeps to take.
-    pub max_sweeps: u32,
+pub enum Relaxation {
+    /// By a factor in (0, 2); 1 is plain Gauss-Seidel.
+    Factor(f64),
+    /// By what the rate of the first sweeps suggests.
+    Automatic,
 }
 
-impl Default for Params {
-    fn default() -> Params {
-        Params {
-            tolerance: 1e-6,
-            max_sweeps: 200,
-        }
-    }
+/// After so many sweeps the rate is looked at: the first of them are plain, and few changes are
+/// not yet those that remain.
+const LOOKS: [usize; 2] = [3, 8];
+
+pub(crate) struct GaussSeidel<'a> {
+    problem: &'a Problem<'a>,
+    x: Values<f32>,
+    /// `sum_{j<i} S_ij x_j` and `sum_{j>i} S_ij x_j`.
+    above: Values<f64>,
+    below: Values<f64>,
+    factor: f64,
+    is_automatic: bool,
+    /// The norm of each sweep's change, relative to that of the values.
+    changes: Vec<f64>,
 }
 
-/// The radiosities, and how they were reached.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Solution {
-    /// Radiosity `B` of each patch, radiant exitance in W/m^2.
-    pub radiosity: Vec<[f32; 3]>,
-    /// The course of the iteration.
-    pub report: Convergence,
-}
-
-/// The course of an iteration.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Convergence {
-    /// Whether the tolerance was reached within the allowed sweeps.
-    pub converged: bool,
-    /// Relative residual after each sweep, in `f64`. Storing radiosities as `f32` rounds the last
-    /// of them by up to 6e-8 of their size.
-    pub residuals: Vec<f64>,
-    /// The power balance of the solution.
-    pub energy: Energy,
-}
-
-impl Convergence {
-    /// The residual of the solution.
-    pub fn residual(&self) -> f64 {
-        self.residuals.last().copied().unwrap_or(0.0)
-    }
-}
-
-/// Why there is no solution.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum SolveError {
-    /// Every bounce makes more light than it received.
-    #[error(
-        "the system has no solution: each bounce multiplies the light by {spectral_radius:.3} \
-         (spectral radius of reflectance times form factors; it must be below 1)"
-    )]
-    Diverges {
-        /// The factor by which light grows per bounce.
-        spectral_radius: f64,
-        /// The patches whose row sum times reflectance is largest, the worst first.
-        worst_patches: Vec<usize>,
-    },
-    /// A number in the input is NaN or infinite.
-    #[error("patch {patch} has a form factor, emission or reflectance that is not finite")]
-    NotFinite {
-        /// The first such patch.
-        patch: usize,
-    },
-}
-
-/// Sweeps over which the residual must grow before divergence is suspected.
-const SUSPICIOUS_GROWTH: usize = 4;
-/// How many of the worst patches an error names.
-const NAMED_PATCHES: usize = 8;
-
-/// Solves the system from `B = E`. `progress` is told the residual after each sweep.
-pub fn solve(
-    system: &System<'_>,
-    params: &Params,
-    progress: &mut dyn FnMut(f64),
-) -> Result<Solution, SolveError> {
-    check_finite(system)?;
-    let mut iteration = Iteration::start(system);
-    let norm_of_emission = system.norm(iteration.emission.iter().copied().map(rgb));
-    let mut residuals: Vec<f64> = Vec::new();
-    let mut converged = norm_of_emission == 0.0;
-    while !converged && residuals.len() < params.max_sweeps as usize {
-        let residual = iteration.sweep() / norm_of_emission;
-        progress(residual);
-        residuals.push(residual);
-        converged = residual <= params.tolerance;
-        if is_growing(&residuals) {
-            check_spectral_radius(system)?;
-        }
-    }
-    if !converged {
-        check_spectral_radius(system)?;
-    }
-    let radiosity: Vec<Rgb> = iteration.radiosity();
-    let report = Convergence {
-        converged,
-        residuals,
-        energy: Energy::of(system, &radiosity),
-    };
-    let to_f32 = |b: Rgb| b.map(|channel| channel as f32);
-    Ok(Solution {
-        radiosity: radiosity.into_iter().map(to_f32).collect(),
-        report,
-    })
-}
-
-struct Iteration<'a> {
-    system: &'a System<'a>,
-    /// The largest emission. Everything here is in units of it, so that no square of an
-    /// ordinary number overflows or vanishes.
-    unit: f64,
-    emission: Vec<Lanes>,
-    /// The current radiosities.
-    x: Vec<Lanes>,
-    /// `sum_{j > i} S_ij x_j` for the values of the last sweep.
-    below: Vec<Lanes>,
-    /// What a row's exchange sums are multiplied by: `rho_i / A_i`, areas relative to the total.
-    gain: Vec<Lanes>,
-}
-
-impl<'a> Iteration<'a> {
-    fn start(system: &'a System<'a>) -> Iteration<'a> {
-        let total = system.total_area();
-        let gain = |(&rho, &area): (&Rgb, &f64)| lanes(rho.map(|rho| rho * total / area));
-        let largest = system
-            .emission
-            .iter()
-            .flatten()
-            .copied()
-            .fold(0.0, f64::max);
-        let unit = if largest > 0.0 { largest } else { 1.0 };
-        let in_units = |e: &Rgb| lanes(e.map(|channel| channel / unit));
-        let emission: Vec<Lanes> = system.emission.iter().map(in_units).collect();
-        let mut below = vec![[0.0; 4]; system.size()];
-        for (i, row) in system.exchange.rows() {
-            scatter(row, &emission[i], &mut below);
-        }
-        Iteration {
-            system,
-            unit,
-            x: emission.clone(),
-            emission,
-            below,
-            gain: system
-                .reflectance
-                .iter()
-                .zip(system.areas)
-                .map(gain)
-                .collect(),
-        }
-    }
-
-    /// One sweep; returns the norm of the residual of the new values.
-    fn sweep(&mut self) -> f64 {
-        let mut below_new = vec![[0.0; 4]; self.x.len()];
-        for (i, row) in self.system.exchange.rows() {
-            let mut sum = self.below[i];
-            for (&s, x_j) in row.iter().zip(&self.x) {
-                add_scaled(&mut sum, f64::from(s), x_j);
-            }
-            for (c, x_i) in self.x[i].iter_mut().enumerate() {
-                *x_i = self.emission[i][c] + self.gain[i][c] * sum[c];
-            }
-            scatter(row, &self.x[i], &mut below_new);
-        }
-        let residual = |i: usize| {
-            let change = |c: usize| self.gain[i][c] * (below_new[i][c] - self.below[i][c]);
-            [change(0), change(1), change(2)]
+impl<'a> GaussSeidel<'a> {
+    pub(crate) fn new(
+        problem: &'a Problem<'a>,
+        mut x: Values<f32>,
+        relaxation: Relaxation,
+    ) -> GaussSeidel<'a> {
+        let [above, below] = problem.sums(&mut x);
+        let (factor, is_automatic) = match relaxation {
+            Relaxation::Factor(factor) => (factor, false),
+            Relaxation::Automatic => (1.0, true),
         };
-        let norm = self.system.norm((0..self.x.len()).map(residual));
-        self.below = below_new;
-        norm
+        GaussSeidel {
+            problem,
+            x,
+            above,
+            below,
+            factor,
+            is_automatic,
+            changes: Vec::new(),
+        }
     }
 
-    fn radiosity(&self) -> Vec<Rgb> {
-        let in_watts = |&x: &Lanes| rgb(x).map(|channel| channel * self.unit);
-        self.x.iter().map(in_watts).collect()
+    /// Goes through all rows; keeps the norm of the change.
+    fn sweep(&mut self) {
+        let problem = self.problem;
+        let (lights, factor) = (problem.lights(), self.factor);
+        let (above, below) = (&mut self.above, &self.below);
+        let mut norms = vec![(0.0, 0.0); lights];
+        let mut update = |i: usize, sums: &[Triple<f64>], x: &mut [Triple<f32>]| {
+            let first = i * lights;
+            above[first..first + lights].copy_from_slice(sums);
+            for (k, x) in x.iter_mut().enumerate() {
+                let (emission, gain) = (&problem.emission[first + k], &problem.gain[i]);
+                for c in 0..3 {
+                    let old = f64::from(x[c]);
+                    let sum = sums[k][c] + below[first + k][c];
+                    let new = old + factor * (emission[c] + gain[c] * sum - old);
+                    x[c] = new as f32;
+                    let new = f64::from(x[c]);
+                    norms[k].0 += problem.areas[i] * (new - old) * (new - old);
+                    norms[k].1 += problem.areas[i] * new * new;
+                }
+            }
+        };
+        self.below = problem.exchange.sweep(&mut self.x, lights, &mut update);
+        let roots = norms.into_iter().map(|(a, b)| (a.sqrt(), b.sqrt()));
+        self.changes.push(worst(roots));
+    }
+
+    /// The ratio of a change to the one before, over the last two of them.
+    fn rate(&self) -> Option<f64> {
+        let [.., first, _, last] = self.changes[..] else {
+            return None;
+        };
+        Some((last / first).sqrt())
+    }
+
+    /// Never less than before: a rate that the factor itself makes says nothing of the room.
+    fn choose_factor(&mut self) {
+        let rate = self.rate().unwrap_or(0.0);
+        let is_shrinking = rate > self.factor - 1.0 && rate < 1.0;
+        if self.is_automatic && LOOKS.contains(&self.changes.len()) && is_shrinking {
+            let reflectance = reflectance_behind(rate, self.factor);
+            self.factor = best_factor(reflectance).max(self.factor);
+        }
     }
 }
 
-/// Adds `S_ij x_i` to the sums of all rows `j` above row `i`.
-fn scatter(row: &[f32], x_i: &Lanes, below: &mut [Lanes]) {
-    for (&s, sum) in row.iter().zip(below) {
-        add_scaled(sum, f64::from(s), x_i);
+/// The reflectance of the room of equal patches in which changes shrink by a rate.
+fn reflectance_behind(rate: f64, factor: f64) -> f64 {
+    rate.ln() * (rate + factor - 1.0) / (factor * (rate - 1.0))
+}
+
+/// The factor at which the rate is `factor - 1`, in the room of equal patches.
+fn best_factor(reflectance: f64) -> f64 {
+    let (mut low, mut high) = (1.0, 2.0);
+    for _ in 0..40 {
+        let factor = 0.5 * (low + high);
+        let rate = factor - 1.0;
+        // The reflectance behind this rate grows with the factor.
+        if reflectance_behind(rate, factor) < reflectance {
+            low = factor;
+        } else {
+            high = factor;
+        }
     }
+    low
 }
 
-/// Whether the residual grew over several sweeps, looked at once every few of them, or is so
-/// large that it is no number any more.
-fn is_growing(residuals: &[f64]) -> bool {
-    let Some(last) = residuals.last_chunk::<SUSPICIOUS_GROWTH>() else {
-        return false;
-    };
-    let grew = last.is_sorted() && last[0] < last[SUSPICIOUS_GROWTH - 1];
-    let looked_at = residuals.len().is_multiple_of(SUSPICIOUS_GROWTH);
-    looked_at && grew || !last[SUSPICIOUS_GROWTH - 1].is_finite()
-}
-
-fn check_spectral_radius(system: &System<'_>) -> Result<(), SolveError> {
-    let spectral_radius = spectral_radius(system);
-    if spectral_radius < 1.0 {
-        return Ok(());
+impl Iteration for GaussSeidel<'_> {
+    fn advance(&mut self) -> Progress {
+        self.sweep();
+        let change = self.changes.last().copied().unwrap_or(0.0);
+        // What is left shrinks by the same rate: a geometric series.
+        let rest = |rate: f64| change * rate / (1.0 - rate);
+        let error = self.rate().filter(|&rate| rate < 1.0).map(rest);
+        self.choose_factor();
+        let residual = |k: usize| {
+            let sum = std::array::from_fn(|c| self.above[k][c] + self.below[k][c]);
+            self.problem.residual_at(k, &sum, &self.x[k])
+        };
+        Progress {
+            residual: self.problem.relative(residual),
+            error,
+            stalled: change == 0.0,
+            suspicious: false,
+        }
     }
-    let total = system.total_area();
-    let sums = system.exchange.row_sums();
-    let reflected = |i: usize| {
-        let strongest = system.reflectance[i].into_iter().fold(0.0, f64::max);
-        strongest * sums[i] * total / system.areas[i]
-    };
-    let mut worst_patches: Vec<usize> = (0..system.size()).collect();
-    worst_patches.sort_by(|&a, &b| reflected(b).total_cmp(&reflected(a)));
-    worst_patches.truncate(NAMED_PATCHES);
-    Err(SolveError::Diverges {
-        spectral_radius,
-        worst_patches,
-    })
-}
 
-fn check_finite(system: &System<'_>) -> Result<(), SolveError> {
-    let sums = system.exchange.row_sums();
-    let is_bad = |&i: &usize| {
-        let finite = |rgb: Rgb| rgb.iter().all(|c| c.is_finite());
-        !(sums[i].is_finite() && finite(system.emission[i]) && finite(system.reflectance[i]))
-    };
-    match (0..system.size()).find(is_bad) {
-        Some(patch) => Err(SolveError::NotFinite { patch }),
-        None => Ok(()),
+    fn relaxation(&self) -> Option<f64> {
+        Some(self.factor)
+    }
+
+    fn finish(self: Box<Self>) -> (Values<f32>, Values<f64>) {
+        let sum = |(above, below): (&Triple<f64>, &Triple<f64>)| {
+            std::array::from_fn(|c| above[c] + below[c])
+        };
+        let sums = self.above.iter().zip(&self.below).map(sum).collect();
+        (self.x, sums)
     }
 }

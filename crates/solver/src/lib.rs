@@ -1,5 +1,4 @@
-//! Turns form factors, emission and reflectance into the radiosities ([`Solution`]) by
-//! Gauss-Seidel iteration.
+//! Turns form factors, emission and reflectance into the radiosities ([`Solution`]).
 //!
 //! The equation, per channel (Cohen & Wallace, "Radiosity and Realistic Image Synthesis",
 //! 1993, eq. 3.19), all quantities radiant exitances in W/m^2:
@@ -8,22 +7,38 @@
 //! B_i = E_i + rho_i sum_j F_ij B_j ,   F_ij = S_ij / A_i
 //! ```
 //!
+//! It is linear in the emission, so it is solved for each light by itself, all in the same passes
+//! over the matrix, and a lamp that is dimmed afterwards needs no new solution
+//! ([`Solution::relit`]). Each method is one file: [`Method::GaussSeidel`], with over-relaxation,
+//! and [`Method::ConjugateGradients`]; all share the pass
+//! ([`radiosity_matrix::SymmetricMatrix::sweep`]) and the report ([`Convergence`]).
+//!
 //! This crate knows nothing of geometry, names or files: errors carry patch indices.
 
+mod conjugate_gradients;
+mod convergence;
+mod diagnosis;
 mod energy;
 mod gauss_seidel;
 mod power_iteration;
+mod problem;
+mod solution;
+mod solve;
 mod system;
 
 #[cfg(test)]
 mod tests;
 
+pub use convergence::Convergence;
+pub use diagnosis::SolveError;
 pub use energy::Energy;
-pub use gauss_seidel::{Convergence, Params, Solution, SolveError, solve};
+pub use gauss_seidel::Relaxation;
+pub use solution::Solution;
+pub use solve::{Method, Params, solve};
 pub use system::System;
 
 /// Raise it whenever the same input would give another solution: it is part of its key.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// Red, green, blue.
 pub type Rgb = [f64; 3];

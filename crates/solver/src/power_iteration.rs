@@ -1,9 +1,10 @@
 //! The spectral radius of `rho F`: the factor by which light grows per bounce in the long run.
 
 use crate::{Rgb, System};
+use radiosity_matrix::Triple;
 
-/// Growth per step that changes by less than this has settled.
-const SETTLED: f64 = 1e-9;
+/// Growth per step that changes by less than this has settled, as far as single precision tells.
+const SETTLED: f64 = 1e-8;
 const MAX_ITERATIONS: usize = 2000;
 
 /// The spectral radius over all channels, by power iteration from equal radiosities.
@@ -16,14 +17,11 @@ pub(crate) fn spectral_radius(system: &System<'_>) -> f64 {
     let mut x = vec![[1.0; 3]; system.size()];
     let mut growth: Rgb = [0.0; 3];
     for _ in 0..MAX_ITERATIONS {
-        let before = channel_norms(system, &x);
-        let irradiance = system.irradiance(&x);
-        for ((x, h), rho) in x.iter_mut().zip(&irradiance).zip(system.reflectance) {
-            *x = std::array::from_fn(|c| 0.5 * (x[c] + rho[c] * h[c]));
-        }
-        let after = channel_norms(system, &x);
+        let before = norms(system, &x);
+        x = averaged(system, x);
+        let after = norms(system, &x);
         for x in &mut x {
-            *x = std::array::from_fn(|c| x[c] / after[c]);
+            *x = std::array::from_fn(|c| (f64::from(x[c]) / after[c]) as f32);
         }
         let previous = growth;
         growth = std::array::from_fn(|c| after[c] / before[c]);
@@ -35,6 +33,28 @@ pub(crate) fn spectral_radius(system: &System<'_>) -> f64 {
     growth.map(radius).into_iter().fold(0.0, f64::max)
 }
 
-fn channel_norms(system: &System<'_>, x: &[Rgb]) -> Rgb {
-    std::array::from_fn(|c| system.norm(x.iter().map(|x| [x[c], 0.0, 0.0])))
+/// `(x + rho F x) / 2`.
+fn averaged(system: &System<'_>, mut x: Vec<Triple<f32>>) -> Vec<Triple<f32>> {
+    let total = system.total_area();
+    let mut above = Vec::with_capacity(x.len());
+    let below = system
+        .exchange
+        .sweep(&mut x, 1, &mut |_, sums, _| above.extend_from_slice(sums));
+    let at = |i: usize| {
+        let gain = system.reflectance[i].map(|rho| rho * total / system.areas[i]);
+        let sum = |c: usize| above[i][c] + below[i][c];
+        std::array::from_fn(|c| (0.5 * (f64::from(x[i][c]) + gain[c] * sum(c))) as f32)
+    };
+    (0..x.len()).map(at).collect()
+}
+
+/// The area-weighted L2 norm of each channel.
+fn norms(system: &System<'_>, x: &[Triple<f32>]) -> Rgb {
+    let square = |c: usize| {
+        let squares = x.iter().zip(system.areas);
+        squares
+            .map(|(x, area)| area * f64::from(x[c]).powi(2))
+            .sum::<f64>()
+    };
+    std::array::from_fn(|c| square(c).sqrt())
 }

@@ -133,9 +133,9 @@ impl Oracle {
             Err(Error::Unsolvable { .. }) => return Ok(None),
             solved => solved?,
         };
-        let found = radiosity_table(scene, pipeline.mesh(), &solved.solution);
+        let found = radiosity_table(scene, pipeline.mesh(), &solved.radiosity);
         let all = table_errors(scene, pipeline.mesh(), &found, &self.table)?;
-        let smooth = pipeline.pictures(&solved.solution)?.smooth;
+        let smooth = pipeline.pictures(&solved.radiosity)?.smooth;
         let squares = picture_rmse(&smooth, &self.picture, scene)?.powi(2);
         Ok(Some(Accuracy {
             rmse: all.rmse_percent_without_noise(),

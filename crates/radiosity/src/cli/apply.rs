@@ -1,6 +1,6 @@
 //! Flags override what the scene says.
 
-use super::args::{DisplayArgs, EstimateArgs, ImageArgs, SceneArgs, SolveArgs};
+use super::args::{DisplayArgs, EstimateArgs, ImageArgs, SceneArgs};
 use super::choices::{FilterArg, ModeArg};
 use super::terminal::tell;
 use radiosity_geometry::{Divisions, PixelFilter};
@@ -40,13 +40,6 @@ impl EstimateArgs {
         if settings.mode != Mode::MonteCarlo && (self.pairs.is_some() || self.seed.is_some()) {
             tell("warning: --pairs and --seed are for --mode monte-carlo, and change nothing");
         }
-    }
-}
-
-impl SolveArgs {
-    pub(crate) fn apply(&self, scene: &mut Scene) {
-        set(&mut scene.solver.tolerance, self.residual);
-        set(&mut scene.solver.max_sweeps, self.max_sweeps);
     }
 }
 

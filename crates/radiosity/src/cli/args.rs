@@ -1,10 +1,12 @@
 //! The command line, as clap reads it.
 
 use super::choices::{ByArg, FilterArg, FormatArg, ModeArg};
+use super::light_args::LightArgs;
 use super::parse::{
     parse_counts, parse_csv_path, parse_difference_path, parse_matrix_path, parse_positive,
-    parse_row_tolerance, parse_size, parse_threshold, parse_tolerance,
+    parse_row_tolerance, parse_size, parse_threshold,
 };
+use super::solver_args::SolveArgs;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
@@ -17,6 +19,8 @@ pub enum Command {
     FormFactors(FormFactorsCommand),
     /// Solve anew for the radiosities, with cached form factors where possible
     Solve(SolveCommand),
+    /// Dim and tint lights without solving: the radiosities of a cached solution, recombined
+    Relight(SolveCommand),
     /// Make the pictures anew, with a cached solution where possible
     Display(DisplayCommand),
     /// Trace a scene by random walks: the unbiased picture or patch radiosities that others are
@@ -91,17 +95,6 @@ pub struct CacheArgs {
     pub no_cache: bool,
 }
 
-/// When the solver stops.
-#[derive(Debug, Args)]
-pub struct SolveArgs {
-    /// Relative residual at which the solver stops
-    #[arg(long, value_name = "X", value_parser = parse_tolerance, allow_negative_numbers = true)]
-    pub residual: Option<f64>,
-    /// Most Gauss-Seidel sweeps to take
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub max_sweeps: Option<u32>,
-}
-
 /// The flags of [`ImageArgs`].
 const OF_PICTURES: [&str; 5] = ["size", "subpixels", "filter", "exposure", "gamma"];
 
@@ -173,7 +166,7 @@ pub struct FormFactorsCommand {
     pub sparse: Option<f64>,
 }
 
-/// `solve`.
+/// `solve` and `relight`.
 #[derive(Debug, Args)]
 #[allow(
     missing_docs,
@@ -186,6 +179,8 @@ pub struct SolveCommand {
     pub estimate: EstimateArgs,
     #[command(flatten)]
     pub solve: SolveArgs,
+    #[command(flatten)]
+    pub lights: LightArgs,
     /// Write the radiosities of all patches: surface,ia,ib,B_r,B_g,B_b in W/m^2; the path ends
     /// in .csv
     #[arg(long, value_name = "FILE.csv", value_parser = parse_csv_path)]
@@ -205,6 +200,8 @@ pub struct DisplayCommand {
     pub estimate: EstimateArgs,
     #[command(flatten)]
     pub solve: SolveArgs,
+    #[command(flatten)]
+    pub lights: LightArgs,
     #[command(flatten)]
     pub display: DisplayArgs,
 }

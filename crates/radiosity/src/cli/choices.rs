@@ -45,3 +45,12 @@ pub enum FormatArg {
     /// Portable network graphics, 8 bit
     Png,
 }
+
+/// [`SolverMethod`](radiosity_scene::SolverMethod) on the command line.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum SolverArg {
+    /// Row after row, with the newest values of all others
+    GaussSeidel,
+    /// Conjugate gradients: the fewest passes where light is reflected often
+    Cg,
+}

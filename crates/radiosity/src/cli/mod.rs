@@ -8,24 +8,28 @@ mod choices;
 mod compare;
 mod form_factors;
 mod inspect;
+mod light_args;
 mod parse;
 mod reference;
 mod run;
 mod site;
+mod solver_args;
 pub(crate) mod terminal;
 
 pub use args::{
     CacheAction, CacheArgs, CacheCommand, CheckArgs, Command, CompareCommand, DisplayArgs,
     DisplayCommand, EstimateArgs, FormFactorsCommand, ImageArgs, InspectCommand, ReferenceCommand,
-    SceneArgs, SolveArgs, SolveCommand,
+    SceneArgs, SolveCommand,
 };
+pub use light_args::LightArgs;
 pub use run::run;
 pub use site::Site;
+pub use solver_args::SolveArgs;
 
 /// For the end of help texts.
 pub const EXIT_CODES: &str = "\
 Exit codes:
-  0  done, warnings included
+  0  done; also with warnings, such as a solution that did not reach its residual
   1  a file cannot be written, or another failure
   2  the command line is wrong
   3  the scene or another input is wrong

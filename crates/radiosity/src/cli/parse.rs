@@ -1,5 +1,6 @@
 //! Values on the command line.
 
+use radiosity_scene::{Automatic, MOST_DIMMING, Relaxation};
 use std::path::PathBuf;
 
 pub(super) fn parse_counts(text: &str) -> Result<(u32, u32), String> {
@@ -71,5 +72,46 @@ pub(super) fn parse_path(text: &str, endings: &[&str]) -> Result<PathBuf, String
             "expected a path that ends in .{}",
             endings.join(" or .")
         )),
+    }
+}
+
+/// `1.2` or `auto`.
+pub(super) fn parse_relaxation(text: &str) -> Result<Relaxation, String> {
+    if text == "auto" {
+        return Ok(Relaxation::Named(Automatic::Auto));
+    }
+    match text.parse() {
+        Ok(factor) if factor > 0.0 && factor < 2.0 => Ok(Relaxation::Factor(factor)),
+        _ => Err("give a number between 0 and 2, neither included, or auto".to_owned()),
+    }
+}
+
+/// `lamp=0.3`.
+pub(super) fn parse_dim(text: &str) -> Result<(String, f64), String> {
+    let (light, factor) = of_light(text)?;
+    Ok((light, parse_dimming(factor)?))
+}
+
+/// `lamp=1,0.8,0.6`.
+pub(super) fn parse_tint(text: &str) -> Result<(String, [f64; 3]), String> {
+    let (light, factors) = of_light(text)?;
+    let factors: Result<Vec<f64>, String> = factors.split(',').map(parse_dimming).collect();
+    let factors = <[f64; 3]>::try_from(factors?);
+    let factors = factors.map_err(|_| "give three factors: LIGHT=R,G,B".to_owned())?;
+    Ok((light, factors))
+}
+
+/// The light's name and what comes after the last `=`.
+fn of_light(text: &str) -> Result<(String, &str), String> {
+    let (light, value) = text
+        .rsplit_once('=')
+        .ok_or("give the light's name, =, and factors")?;
+    Ok((light.to_owned(), value))
+}
+
+fn parse_dimming(text: &str) -> Result<f64, String> {
+    match text.trim().parse() {
+        Ok(factor) if (0.0..=MOST_DIMMING).contains(&factor) => Ok(factor),
+        _ => Err(format!("`{text}` is not a factor between 0 and 1e6")),
     }
 }

@@ -13,13 +13,12 @@ use super::terminal::{Terminal, tell};
 use crate::artifact::Sources;
 use crate::error::Error;
 use crate::export::radiosity_table;
-use crate::pipeline::Pipeline;
+use crate::pipeline::{Pipeline, Solved};
 use crate::report::{DisplayReport, Report};
 use radiosity_cache::{Store, replace_file_by};
 use radiosity_renderer::{Image, PictureFormat, Pictures, ToneMap, encode};
 use radiosity_scene::{ImageSettings, Scene};
 use radiosity_simd::InstructionSet;
-use radiosity_solver::Solution;
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -37,7 +36,8 @@ pub fn run(command: &Command, site: &Site) -> ExitCode {
     let result = match command {
         Command::Render(args) | Command::Display(args) => display(args, site),
         Command::FormFactors(args) => form_factors::run(args, site),
-        Command::Solve(args) => solve(args, site),
+        Command::Solve(args) => solve(args, site, Sources::Computed),
+        Command::Relight(args) => solve(args, site, Sources::Cached),
         Command::Reference(args) => reference::run(args, site),
         Command::Compare(args) => compare::run(args, site),
         Command::Check(args) => check::run(args, site),
@@ -53,24 +53,27 @@ pub fn run(command: &Command, site: &Site) -> ExitCode {
     }
 }
 
-fn solve(args: &SolveCommand, site: &Site) -> Result<(), Error> {
+/// `sources` says whether a cached solution will do.
+fn solve(args: &SolveCommand, site: &Site, sources: Sources) -> Result<(), Error> {
     let mut scene = site.load(&args.scene.scene)?;
     args.scene.apply(&mut scene);
     args.estimate.apply(&mut scene);
     args.solve.apply(&mut scene);
+    args.lights.apply(&mut scene)?;
     if let Some(path) = &args.export {
         check_folder_of(path)?;
     }
     let terminal = Terminal::new(args.estimate.json);
     with_threads(args.estimate.threads, || {
         let store = store(&args.estimate, site);
-        let pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
+        let mut pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
+        args.solve.start(&mut pipeline)?;
         let mut report = Report::new(&scene, pipeline.mesh(), &terminal);
-        let solution = reported_solution(&pipeline, Sources::Computed, &mut report)?;
+        let radiosity = reported_solution(&pipeline, sources, &mut report)?.radiosity;
         if let Some(path) = &args.export {
             write(
                 path,
-                &radiosity_table(&scene, pipeline.mesh(), &solution).to_csv(),
+                &radiosity_table(&scene, pipeline.mesh(), &radiosity).to_csv(),
             )?;
             report.output("export", path);
         }
@@ -83,6 +86,7 @@ fn display(args: &DisplayCommand, site: &Site) -> Result<(), Error> {
     args.scene.apply(&mut scene);
     args.estimate.apply(&mut scene);
     args.solve.apply(&mut scene);
+    args.lights.apply(&mut scene)?;
     args.display.apply(&mut scene);
     if scene.camera.is_none() {
         return Err(Error::NoCamera);
@@ -92,11 +96,12 @@ fn display(args: &DisplayCommand, site: &Site) -> Result<(), Error> {
     let terminal = Terminal::new(args.estimate.json);
     with_threads(args.estimate.threads, || {
         let store = store(&args.estimate, site);
-        let pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
+        let mut pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
+        args.solve.start(&mut pipeline)?;
         let mut report = Report::new(&scene, pipeline.mesh(), &terminal);
-        let solution = reported_solution(&pipeline, Sources::Cached, &mut report)?;
+        let solved = reported_solution(&pipeline, Sources::Cached, &mut report)?;
         let start = Instant::now();
-        let pictures = pipeline.pictures(&solution)?;
+        let pictures = pipeline.pictures(&solved.radiosity)?;
         let outputs = save(&pictures, &scene, &args.display, folder)?;
         report.display(DisplayReport {
             seconds: start.elapsed().as_secs_f64(),
@@ -113,12 +118,12 @@ fn reported_solution(
     pipeline: &Pipeline<'_>,
     sources: Sources,
     report: &mut Report<'_>,
-) -> Result<Solution, Error> {
+) -> Result<Solved, Error> {
     let solved = pipeline.solution_after(sources, &mut |origin, rows| {
         report.form_factors(origin, rows, pipeline);
     })?;
-    report.solution(&solved.origin, &solved.solution);
-    Ok(solved.solution)
+    report.solution(&solved);
+    Ok(solved)
 }
 
 pub(super) fn store(args: &EstimateArgs, site: &Site) -> Option<Store> {

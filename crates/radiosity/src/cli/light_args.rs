@@ -1,0 +1,48 @@
+//! How bright lights are, on the command line.
+
+use super::parse::{parse_dim, parse_tint};
+use crate::error::Error;
+use clap::Args;
+use radiosity_scene::{Light, Scene};
+
+/// How bright lights are; no solution is made anew for that.
+#[derive(Debug, Args)]
+pub struct LightArgs {
+    /// Make a light darker or brighter than its materials say, by a factor; once for each light
+    #[arg(long, value_name = "LIGHT=X", value_parser = parse_dim)]
+    pub dim: Vec<(String, f64)>,
+    /// Factors on the red, green and blue of a light; once for each light
+    #[arg(long, value_name = "LIGHT=R,G,B", value_parser = parse_tint)]
+    pub tint: Vec<(String, [f64; 3])>,
+}
+
+impl LightArgs {
+    pub(crate) fn apply(&self, scene: &mut Scene) -> Result<(), Error> {
+        for (name, dim) in &self.dim {
+            light(scene, name)?.dim = *dim;
+        }
+        for (name, tint) in &self.tint {
+            light(scene, name)?.tint = *tint;
+        }
+        Ok(())
+    }
+}
+
+fn light<'a>(scene: &'a mut Scene, name: &str) -> Result<&'a mut Light, Error> {
+    let names: Vec<&str> = scene
+        .lights
+        .iter()
+        .map(|light| light.name.as_str())
+        .collect();
+    let Some(index) = names.iter().position(|known| *known == name) else {
+        let known = if names.is_empty() {
+            "nothing in this scene emits".to_owned()
+        } else {
+            format!("the lights of this scene are {}", names.join(", "))
+        };
+        return Err(Error::Input(format!(
+            "there is no light `{name}`\n   = help: {known}"
+        )));
+    };
+    Ok(&mut scene.lights[index])
+}

@@ -1,0 +1,56 @@
+//! How to solve, on the command line.
+
+use super::choices::SolverArg;
+use super::parse::{parse_relaxation, parse_tolerance};
+use crate::error::Error;
+use crate::pipeline::Pipeline;
+use clap::Args;
+use radiosity_scene::{Relaxation, Scene, SolverMethod};
+use std::path::PathBuf;
+
+/// How to solve, and when to stop.
+#[derive(Debug, Args)]
+pub struct SolveArgs {
+    /// How to solve [default: gauss-seidel]
+    #[arg(long, value_enum)]
+    pub solver: Option<SolverArg>,
+    /// Factor by which Gauss-Seidel overdoes each change, between 0 and 2, or auto: by what the
+    /// first sweeps suggest; 1 is plain Gauss-Seidel [default: auto]
+    #[arg(long, value_name = "X|auto", value_parser = parse_relaxation, allow_negative_numbers = true)]
+    pub relaxation: Option<Relaxation>,
+    /// Relative residual at which the solver stops
+    #[arg(long, value_name = "X", value_parser = parse_tolerance, allow_negative_numbers = true)]
+    pub residual: Option<f64>,
+    /// Most passes over the matrix to take
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub max_sweeps: Option<u32>,
+    /// Start from the solution in this file of the cache, of the same patches: fewer passes where a
+    /// colour or a lamp has changed a little
+    #[arg(long, value_name = "FILE.bin")]
+    pub start_from: Option<PathBuf>,
+}
+
+impl SolveArgs {
+    pub(crate) fn apply(&self, scene: &mut Scene) {
+        let settings = &mut scene.solver;
+        let method = self.solver.map(|solver| match solver {
+            SolverArg::GaussSeidel => SolverMethod::GaussSeidel,
+            SolverArg::Cg => SolverMethod::ConjugateGradients,
+        });
+        settings.method = method.unwrap_or(settings.method);
+        settings.relaxation = self.relaxation.unwrap_or(settings.relaxation);
+        settings.tolerance = self.residual.unwrap_or(settings.tolerance);
+        settings.max_sweeps = self.max_sweeps.unwrap_or(settings.max_sweeps);
+        if self.relaxation.is_some() && settings.method == SolverMethod::ConjugateGradients {
+            super::terminal::tell("warning: --relaxation is for gauss-seidel, and changes nothing");
+        }
+    }
+
+    /// Has the pipeline start where it should.
+    pub(crate) fn start(&self, pipeline: &mut Pipeline<'_>) -> Result<(), Error> {
+        match &self.start_from {
+            Some(file) => pipeline.start_from(file),
+            None => Ok(()),
+        }
+    }
+}

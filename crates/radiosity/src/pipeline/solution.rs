@@ -1,0 +1,245 @@
+//! Stage 3 of the chain: the radiosities that each light makes, and their sum.
+
+use super::Pipeline;
+use crate::artifact::{Origin, Recipe, Sources, obtain, usable};
+use crate::error::Error;
+use crate::facts::{self, SOLUTION, SolutionFacts};
+use crate::observer::Stage;
+use crate::rows::RowSummary;
+use crate::settings;
+use radiosity_cache::{Id, Key, Miss, Store, open};
+use radiosity_form_factors::FormFactors;
+use radiosity_solver::{self as solver, Energy, Solution, System};
+use std::path::Path;
+use std::time::Instant;
+
+/// A solution, where it came from, and what it was made from.
+pub struct Solved {
+    /// The artifact: each light undimmed.
+    pub solution: Solution,
+    /// The radiosity of each patch, W/m^2 per channel, with the lights as bright as the scene has
+    /// them.
+    pub radiosity: Vec<[f32; 3]>,
+    /// The power balance with those lights.
+    pub energy: Energy,
+    /// Cached or computed.
+    pub origin: Origin,
+    /// The rows of the form factors that it was made from.
+    pub rows: RowSummary,
+    /// Where those came from.
+    pub form_factors: Origin,
+    /// How many passes the solution took that this one started from.
+    pub start_passes: Option<usize>,
+}
+
+/// Another solution, to start from.
+pub(crate) struct Start {
+    key: Key,
+    passes: usize,
+    names: Vec<String>,
+    lights: Vec<Vec<[f32; 3]>>,
+}
+
+/// Into how many steps the solver's progress is divided.
+const SOLVER_STEPS: u64 = 100;
+
+impl Pipeline<'_> {
+    /// Has the solver start from the solution in a file of the cache, light by light of the same
+    /// name. Its key becomes part of that of the new solution.
+    pub fn start_from(&mut self, path: &Path) -> Result<(), Error> {
+        let start = Start::read(path)?;
+        let (found, patches) = (start.patches(), self.mesh.patches.len());
+        if found != patches {
+            return Err(Error::Input(format!(
+                "{}: the solution is of {found} patches, and this scene has {patches}\n   \
+                 = help: start from one of the same surfaces, cut in the same way",
+                path.display()
+            )));
+        }
+        self.start = Some(start);
+        Ok(())
+    }
+
+    /// Stage 3: the solution. `sources` is about the solution alone; form factors are taken
+    /// from the cache where possible, and not even looked at where the solution is cached.
+    pub fn solution(&self, sources: Sources) -> Result<Solved, Error> {
+        self.solution_after(sources, &mut |_, _| ())
+    }
+
+    /// [`Pipeline::solution`], telling of the form factors as soon as they are there and before
+    /// anything is solved.
+    pub fn solution_after(
+        &self,
+        sources: Sources,
+        on_form_factors: &mut dyn FnMut(&Origin, &RowSummary),
+    ) -> Result<Solved, Error> {
+        let id = self.solution_id();
+        let mut made_from = None;
+        let mut start = Instant::now();
+        let recipe = Recipe {
+            read: |store: &Store| self.stored_solution(store, &id),
+            make: |store: Option<&Store>| {
+                let made = self.form_factors(Sources::Cached)?;
+                on_form_factors(&made.origin, &made.rows);
+                start = Instant::now();
+                let solution = self.solve(&made.form_factors)?;
+                made_from = Some(made.origin);
+                let facts = SolutionFacts {
+                    report: solution.report.clone(),
+                    rows: made.rows,
+                    lights: self.light_names(),
+                };
+                let values = solution.lights.concat();
+                let write = |store: &Store| {
+                    let written = store.write(&id, &facts, values.as_flattened());
+                    usable(written, self.observer, &id).is_some()
+                };
+                let is_cached = store.is_some_and(write);
+                Ok(((solution, made.rows), is_cached))
+            },
+        };
+        let ((solution, rows), mut origin) =
+            obtain(self.cache, self.observer, &id, sources, recipe)?;
+        origin.bytes = 12 * (solution.lights.len() * self.mesh.patches.len()) as u64;
+        origin.seconds = start.elapsed().as_secs_f64();
+        let form_factors = made_from.unwrap_or_else(|| {
+            let untouched = self.untouched_form_factors();
+            on_form_factors(&untouched, &rows);
+            untouched
+        });
+        let dimming = settings::dimming(self.scene);
+        let dark = || vec![[0.0; 3]; self.mesh.patches.len()];
+        Ok(Solved {
+            radiosity: if dimming.is_empty() {
+                dark()
+            } else {
+                solution.relit(&dimming)
+            },
+            energy: solution.energy(&dimming),
+            solution,
+            origin,
+            rows,
+            form_factors,
+            start_passes: self.start.as_ref().map(|start| start.passes),
+        })
+    }
+
+    fn light_names(&self) -> Vec<String> {
+        let lights = self.scene.lights.iter();
+        lights.map(|light| light.name.clone()).collect()
+    }
+
+    fn stored_solution(&self, store: &Store, id: &Id<'_>) -> Result<(Solution, RowSummary), Miss> {
+        let artifact = store.read::<SolutionFacts>(id)?;
+        let (facts, values) = artifact.into_values()?;
+        let lights = by_light(values.as_ref(), self.lights.len()).ok_or(Miss::Header)?;
+        if lights
+            .iter()
+            .any(|light| light.len() != self.mesh.patches.len())
+        {
+            return Err(Miss::Header);
+        }
+        let report = facts.report;
+        Ok((Solution { lights, report }, facts.rows))
+    }
+
+    fn solution_id(&self) -> Id<'_> {
+        let inputs = (
+            facts::VERSION,
+            self.key.bytes(),
+            &self.lights,
+            &self.reflectance,
+            settings::solver_params(self.scene),
+            self.start.as_ref().map(|start| start.key.bytes()),
+        );
+        self.id(SOLUTION, Key::of(SOLUTION, solver::VERSION, &inputs))
+    }
+
+    fn solve(&self, form_factors: &FormFactors) -> Result<Solution, Error> {
+        let share = |share: fn(&radiosity_form_factors::RowFacts) -> f64| -> Vec<f64> {
+            form_factors.rows.iter().map(share).collect()
+        };
+        let system = System {
+            exchange: &form_factors.exchange,
+            areas: &form_factors.areas,
+            reflectance: &self.reflectance,
+            lights: &self.lights,
+            backs: &share(|row| row.backs),
+            background: &share(|row| row.background),
+        };
+        let start = self.start.as_ref().map(|start| self.start_of(start));
+        let params = settings::solver_params(self.scene);
+        self.observer.begin(Stage::Solve, SOLVER_STEPS);
+        let mut reached = 0;
+        let solution = solver::solve(&system, start.as_deref(), &params, &mut |residual| {
+            // Residuals fall by a factor per sweep, so their logarithm goes evenly.
+            let share = (residual.ln() / params.tolerance.ln()).clamp(0.0, 1.0);
+            let now = (share * SOLVER_STEPS as f64) as u64;
+            self.observer.advance(now.saturating_sub(reached));
+            reached = reached.max(now);
+        });
+        self.observer.end();
+        let name_of = |patch| self.surface_name(patch).to_owned();
+        solution.map_err(|error| Error::of_solver(&error, name_of))
+    }
+
+    /// Where each light starts: from what the other solution has of it, or from its emission.
+    fn start_of(&self, start: &Start) -> Vec<Vec<[f32; 3]>> {
+        let to_f32 = |e: &[f64; 3]| e.map(|channel| channel as f32);
+        let light = |(name, emission): (String, &Vec<[f64; 3]>)| {
+            let known = start.names.iter().position(|other| *other == name);
+            known.map_or_else(
+                || emission.iter().map(to_f32).collect(),
+                |known| start.lights[known].clone(),
+            )
+        };
+        self.light_names()
+            .into_iter()
+            .zip(&self.lights)
+            .map(light)
+            .collect()
+    }
+}
+
+impl Start {
+    fn read(path: &Path) -> Result<Start, Error> {
+        let unusable = |problem: &dyn std::fmt::Display| {
+            Error::Input(format!(
+                "{}: {problem}\n   = help: give a solution's .bin file; `cache list` names them",
+                path.display()
+            ))
+        };
+        let opened = open(path).map_err(|miss| unusable(&miss))?;
+        if opened.stage != SOLUTION {
+            return Err(unusable(&format!(
+                "this is no solution but {}",
+                opened.stage
+            )));
+        }
+        let key = opened.key;
+        let artifact = opened.into_artifact::<SolutionFacts>();
+        let (facts, values) = artifact
+            .and_then(radiosity_cache::Artifact::into_values)
+            .map_err(|miss| unusable(&miss))?;
+        let lights = by_light(values.as_ref(), facts.lights.len());
+        Ok(Start {
+            key,
+            passes: facts.report.residuals.len(),
+            names: facts.lights,
+            lights: lights.ok_or_else(|| unusable(&Miss::Header))?,
+        })
+    }
+
+    fn patches(&self) -> usize {
+        self.lights.first().map_or(0, Vec::len)
+    }
+}
+
+/// The radiosities of so many lights, one after the other, if they are as many.
+fn by_light(values: &[f32], lights: usize) -> Option<Vec<Vec<[f32; 3]>>> {
+    let (triples, rest) = values.as_chunks::<3>();
+    let fits = rest.is_empty() && triples.len().is_multiple_of(lights.max(1));
+    let patches = (triples.len() / lights.max(1)).max(1);
+    let found: Vec<Vec<[f32; 3]>> = triples.chunks(patches).map(<[_]>::to_vec).collect();
+    (fits && found.len() == lights).then_some(found)
+}

@@ -1,0 +1,156 @@
+//! Lights that are dimmed without solving, and solutions that start from others.
+
+mod place;
+
+use place::{Place, SCENE};
+use std::fs;
+
+/// The radiosities of a table, without its names.
+fn radiosities(place: &Place, name: &str) -> Vec<f64> {
+    let text = fs::read_to_string(place.path(name)).unwrap();
+    let fields = text
+        .lines()
+        .skip(1)
+        .flat_map(|line| line.rsplit(',').take(3));
+    fields.map(|field| field.parse().unwrap()).collect()
+}
+
+/// The room with a second lamp.
+fn two_lamps(place: &Place, lamp: &str, wing: &str) {
+    let text = SCENE
+        .replace("emission = [4, 3, 2]", lamp)
+        .replace("[materials.lamp]", &format!("{wing}\n[materials.lamp]"))
+        .replace(
+            "name = \"wing\"\nmaterial = \"white\"",
+            "name = \"wing\"\nmaterial = \"glow\"",
+        );
+    place.write("room.toml", &text);
+}
+
+const GLOW: &str = "[materials.glow]\nreflectance = 0.5\nemission = [1, 2, 3]";
+
+/// What a solution of lamps that say so themselves gives: the residual of 1e-6 of the emission,
+/// which is at most a hundred times the least radiosity, remains of either.
+#[test]
+fn relighting_is_solving_anew() {
+    let place = Place::new();
+    two_lamps(&place, "emission = [4, 3, 2]", GLOW);
+    place.json("solve room.toml --cache c");
+    let report = place.json(
+        "relight room.toml --cache c --dim lamp=0.5 --tint lamp=1,0.5,2 --dim glow=3 --export a.csv",
+    );
+    assert_eq!(report["stages"]["solve"]["cached"], true);
+    let dimmed = GLOW.replace("[1, 2, 3]", "[3, 6, 9]");
+    two_lamps(&place, "emission = [2, 0.75, 2]", &dimmed);
+    let fresh = place.json("solve room.toml --no-cache --export b.csv");
+    let (relit, solved) = (radiosities(&place, "a.csv"), radiosities(&place, "b.csv"));
+    assert_eq!(relit.len(), 3 * 17);
+    for (relit, solved) in relit.iter().zip(&solved) {
+        assert!((relit - solved).abs() <= 1e-4 * solved, "{relit} {solved}");
+    }
+    let power = |report: &serde_json::Value, c: usize| {
+        report["stages"]["solve"]["energy_balance"]["emitted"][c]
+            .as_f64()
+            .unwrap()
+    };
+    for c in 0..3 {
+        assert!((power(&report, c) / power(&fresh, c) - 1.0).abs() < 1e-12);
+    }
+}
+
+/// In the scene as on the command line.
+#[test]
+fn pictures_are_dimmed_without_solving() {
+    let place = Place::new();
+    place.json("render room.toml --cache c -o bright");
+    let dim = place.json("display room.toml --cache c -o dim --dim lamp=0.25");
+    assert_eq!(dim["stages"]["solve"]["cached"], true);
+    place.write(
+        "room.toml",
+        &format!("{SCENE}\n[lights.lamp]\ndim = 0.25\n"),
+    );
+    let in_scene = place.json("display room.toml --cache c -o scene");
+    assert_eq!(in_scene["stages"]["solve"]["cached"], true);
+    let read = |folder: &str| fs::read(place.path(&format!("{folder}/room-smooth.ppm"))).unwrap();
+    assert_eq!(read("dim"), read("scene"));
+    assert_ne!(read("dim"), read("bright"));
+}
+
+#[test]
+fn lights_that_are_not_there_are_refused() {
+    let place = Place::new();
+    let (code, _, error) = place.run("relight room.toml --no-cache --dim lmp=1");
+    assert_eq!(code, 3);
+    insta::assert_snapshot!(error, @"
+    error: there is no light `lmp`
+       = help: the lights of this scene are lamp
+    ");
+    for wrong in [
+        "--dim lamp",
+        "--dim lamp=-1",
+        "--tint lamp=1,2",
+        "--tint lamp=1,2,x",
+    ] {
+        let (code, _, error) = place.run(&format!("relight room.toml --no-cache {wrong}"));
+        assert_eq!(code, 2, "{error}");
+    }
+}
+
+/// The only artifact of a stage in a folder.
+fn file_in(place: &Place, folder: &str, stage: &str) -> String {
+    let files = fs::read_dir(place.path(folder)).unwrap();
+    let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
+    let is_wanted = |name: &String| name.contains(&format!("-{stage}-")) && name.ends_with(".bin");
+    let names: Vec<String> = names.filter(is_wanted).collect();
+    assert_eq!(names.len(), 1, "{names:?}");
+    format!("{folder}/{}", names[0])
+}
+
+#[test]
+fn a_solution_starts_from_another() {
+    let place = Place::new();
+    let cold = place.json("solve room.toml --cache c");
+    let file = file_in(&place, "c", "solution");
+    place.write(
+        "room.toml",
+        &SCENE.replace("reflectance = 0.7", "reflectance = 0.701"),
+    );
+    let fresh = place.json("solve room.toml --cache d");
+    let started = place.json(&format!("solve room.toml --cache d --start-from {file}"));
+    let sweeps = |report: &serde_json::Value| report["stages"]["solve"]["sweeps"].as_u64().unwrap();
+    assert!(
+        sweeps(&started) < sweeps(&fresh),
+        "{} {}",
+        sweeps(&started),
+        sweeps(&fresh)
+    );
+    let stages = &started["stages"]["solve"];
+    assert_eq!(stages["start_sweeps"], cold["stages"]["solve"]["sweeps"]);
+    // Another start is another solution, which is kept beside.
+    let again = place.json("render room.toml --cache d");
+    assert_eq!(
+        again["stages"]["solve"]["sweeps"],
+        fresh["stages"]["solve"]["sweeps"]
+    );
+    let kept = place.json(&format!("render room.toml --cache d --start-from {file}"));
+    assert_eq!(kept["stages"]["solve"]["cached"], true);
+    assert_eq!(sweeps(&kept), sweeps(&started));
+}
+
+#[test]
+fn starts_that_do_not_fit_are_refused() {
+    let place = Place::new();
+    place.json("solve room.toml --cache c");
+    let file = file_in(&place, "c", "solution");
+    let run = |arguments: &str| {
+        let (code, _, error) = place.run(&format!("solve room.toml --no-cache {arguments}"));
+        assert_eq!(code, 3, "{error}");
+        error.replace(&file, "FILE")
+    };
+    insta::assert_snapshot!(run(&format!("--patches 2 --start-from {file}")));
+    insta::assert_snapshot!(run("--start-from nowhere.bin"));
+    insta::assert_snapshot!(run("--start-from room.toml"));
+    let factors = file_in(&place, "c", "form-factors");
+    let error = run(&format!("--start-from {factors}")).replace(&factors, "FILE");
+    insta::assert_snapshot!(error);
+}

@@ -1,0 +1,66 @@
+//! Whole solutions by each method, and lights recombined.
+
+#![allow(missing_docs, reason = "criterion's macros write public items")]
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use radiosity_matrix::{SymmetricMatrix, packed_len};
+use radiosity_solver::{Convergence, Energy, Method, Params, Relaxation, Solution, System, solve};
+
+fn solutions(criterion: &mut Criterion) {
+    for size in [1728, 6912] {
+        let row_sum_one = 1.0 / (size * (size - 1)) as f32;
+        let exchange = SymmetricMatrix::new(size, vec![row_sum_one; packed_len(size)])
+            .expect("one value per pair");
+        let mut light = vec![[0.0; 3]; size];
+        light[size / 2] = [1.0, 0.5, 0.25];
+        let system = System {
+            exchange: &exchange,
+            areas: &vec![1.0; size],
+            reflectance: &vec![[0.5, 0.7, 0.9]; size],
+            lights: &[light],
+            backs: &vec![0.0; size],
+            background: &vec![0.0; size],
+        };
+        let mut group = criterion.benchmark_group(format!("{size} patches"));
+        for (name, method) in [
+            ("gauss-seidel", Method::GaussSeidel(Relaxation::Factor(1.0))),
+            ("automatic", Method::GaussSeidel(Relaxation::Automatic)),
+            ("conjugate gradients", Method::ConjugateGradients),
+        ] {
+            let params = Params {
+                method,
+                ..Params::default()
+            };
+            group.bench_function(name, |b| {
+                b.iter(|| solve(&system, None, &params, &mut |_| ()));
+            });
+        }
+        group.finish();
+    }
+}
+
+fn relighting(criterion: &mut Criterion) {
+    let solution = Solution {
+        lights: vec![vec![[1.0, 0.5, 0.25]; 10_000]; 4],
+        report: Convergence {
+            method: Method::ConjugateGradients,
+            converged: true,
+            residual: 0.0,
+            residuals: Vec::new(),
+            error: None,
+            relaxation: None,
+            energies: vec![Energy::default(); 4],
+        },
+    };
+    let dimming = [[0.1, 0.2, 0.3]; 4];
+    criterion.bench_function("relit, 10,000 patches and 4 lights", |b| {
+        b.iter(|| solution.relit(&dimming));
+    });
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default().sample_size(10);
+    targets = solutions, relighting
+}
+criterion_main!(benches);

@@ -1,0 +1,87 @@
+//! Why a system has no solution, and where.
+
+use crate::power_iteration::spectral_radius;
+use crate::{Rgb, System};
+
+/// Why there is no solution.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SolveError {
+    /// Every bounce makes more light than it received.
+    #[error(
+        "the system has no solution: each bounce multiplies the light by {spectral_radius:.3} \
+         (spectral radius of reflectance times form factors; it must be below 1)"
+    )]
+    Diverges {
+        /// The factor by which light grows per bounce.
+        spectral_radius: f64,
+        /// The patches whose row sum times reflectance is largest, the worst first.
+        worst_patches: Vec<usize>,
+    },
+    /// A number in the input is NaN or infinite.
+    #[error("patch {patch} has a form factor, emission or reflectance that is not finite")]
+    NotFinite {
+        /// The first such patch.
+        patch: usize,
+    },
+}
+
+/// Sweeps over which the residual must grow before divergence is suspected.
+const SUSPICIOUS_GROWTH: usize = 4;
+/// How many of the worst patches an error names.
+const NAMED_PATCHES: usize = 8;
+
+/// Whether the residual grew over several sweeps, looked at once every few of them, or is so
+/// large that it is no number any more.
+pub(crate) fn is_growing(residuals: &[f64]) -> bool {
+    if residuals.last().is_some_and(|last| !last.is_finite()) {
+        return true;
+    }
+    let Some(last) = residuals.last_chunk::<SUSPICIOUS_GROWTH>() else {
+        return false;
+    };
+    let grew = last.is_sorted() && last[0] < last[SUSPICIOUS_GROWTH - 1];
+    residuals.len().is_multiple_of(SUSPICIOUS_GROWTH) && grew
+}
+
+pub(crate) fn check_spectral_radius(system: &System<'_>) -> Result<(), SolveError> {
+    let spectral_radius = spectral_radius(system);
+    if spectral_radius < 1.0 {
+        return Ok(());
+    }
+    let total = system.total_area();
+    let sums = system.exchange.row_sums();
+    let reflected = |i: usize| {
+        let strongest = system.reflectance[i].into_iter().fold(0.0, f64::max);
+        strongest * sums[i] * total / system.areas[i]
+    };
+    let mut worst_patches: Vec<usize> = (0..system.size()).collect();
+    worst_patches.sort_by(|&a, &b| reflected(b).total_cmp(&reflected(a)));
+    worst_patches.truncate(NAMED_PATCHES);
+    Err(SolveError::Diverges {
+        spectral_radius,
+        worst_patches,
+    })
+}
+
+/// Emission and reflectance.
+pub(crate) fn check_materials(system: &System<'_>) -> Result<(), SolveError> {
+    let finite = |rgb: &Rgb| rgb.iter().all(|c| c.is_finite());
+    let is_good = |i: usize| {
+        let lights = system.lights.iter();
+        finite(&system.reflectance[i]) && lights.into_iter().all(|light| finite(&light[i]))
+    };
+    first(system, |i| !is_good(i))
+}
+
+/// Form factors: a pass of its own, so only where a result is no number.
+pub(crate) fn check_numbers(system: &System<'_>) -> Result<(), SolveError> {
+    let sums = system.exchange.row_sums();
+    first(system, |i| !sums[i].is_finite())
+}
+
+fn first(system: &System<'_>, is_bad: impl Fn(usize) -> bool) -> Result<(), SolveError> {
+    match (0..system.size()).find(|&i| is_bad(i)) {
+        Some(patch) => Err(SolveError::NotFinite { patch }),
+        None => Ok(()),
+    }
+}

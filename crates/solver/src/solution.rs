@@ -1,0 +1,44 @@
+//! The radiosities.
+
+use crate::{Convergence, Energy, Rgb};
+
+/// The radiosities that each light makes, and how they were reached.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution {
+    /// Of each light, the radiosity `B` of each patch: radiant exitance in W/m^2 per channel, of
+    /// the light as it is stated, undimmed.
+    pub lights: Vec<Vec<[f32; 3]>>,
+    /// The course of the iteration.
+    pub report: Convergence,
+}
+
+impl Solution {
+    /// The radiosities with each light dimmed by a factor per channel: their sum, no matter how
+    /// the factors change.
+    ///
+    /// # Panics
+    ///
+    /// If there are not as many factors as lights.
+    pub fn relit(&self, dimming: &[Rgb]) -> Vec<[f32; 3]> {
+        assert_eq!(dimming.len(), self.lights.len(), "a factor for each light");
+        let patches = self.lights.first().map_or(0, Vec::len);
+        let mut sum = vec![[0.0; 3]; patches];
+        for (light, factor) in self.lights.iter().zip(dimming) {
+            let factor = factor.map(|channel| channel as f32);
+            for (sum, radiosity) in sum.iter_mut().zip(light) {
+                for c in 0..3 {
+                    sum[c] += factor[c] * radiosity[c];
+                }
+            }
+        }
+        sum
+    }
+
+    /// The power balance with each light dimmed by a factor per channel.
+    pub fn energy(&self, dimming: &[Rgb]) -> Energy {
+        let lights = self.report.energies.iter().zip(dimming);
+        lights.fold(Energy::default(), |sum, (energy, factor)| {
+            sum.plus(energy, factor)
+        })
+    }
+}

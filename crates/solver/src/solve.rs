@@ -1,0 +1,114 @@
+//! Stage 3: passes until the residual is small enough.
+
+use crate::conjugate_gradients::ConjugateGradients;
+use crate::convergence::Progress;
+use crate::diagnosis::{self, SolveError};
+use crate::gauss_seidel::{GaussSeidel, Relaxation};
+use crate::problem::{Problem, Values};
+use crate::{Convergence, Energy, Solution, System};
+use serde::{Deserialize, Serialize};
+
+/// How to solve.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Method {
+    /// Row after row, with the newest values of all others.
+    GaussSeidel(Relaxation),
+    /// The fewest passes where light is reflected often.
+    ConjugateGradients,
+}
+
+/// How to solve, and when to stop.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Params {
+    /// The method.
+    pub method: Method,
+    /// Relative residual `||E + rho F B - B|| / ||E||` to reach (area-weighted L2 norm over
+    /// patches and channels) for each light. Below some 1e-7, single precision has no better
+    /// solution.
+    pub tolerance: f64,
+    /// Most passes over the matrix to take.
+    pub max_passes: u32,
+}
+
+impl Default for Params {
+    fn default() -> Params {
+        Params {
+            method: Method::GaussSeidel(Relaxation::Automatic),
+            tolerance: 1e-6,
+            max_passes: 200,
+        }
+    }
+}
+
+/// A method on its way.
+pub(crate) trait Iteration {
+    /// Takes one pass over the matrix (conjugate gradients take one more to be sure of the last).
+    fn advance(&mut self) -> Progress;
+
+    /// See [`Convergence::relaxation`].
+    fn relaxation(&self) -> Option<f64>;
+
+    /// The values, and their `sum_j S_ij x_j`.
+    fn finish(self: Box<Self>) -> (Values<f32>, Values<f64>);
+}
+
+/// Solves the system for all lights, from `B = E` or from other radiosities in the form of
+/// [`Solution::lights`]. `progress` is told the residual after each pass.
+///
+/// # Errors
+///
+/// If there is no solution, or the input has numbers that are none.
+///
+/// # Panics
+///
+/// If `start` has another shape than the system.
+pub fn solve(
+    system: &System<'_>,
+    start: Option<&[Vec<[f32; 3]>]>,
+    params: &Params,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Solution, SolveError> {
+    diagnosis::check_materials(system)?;
+    let problem = Problem::new(system);
+    let x = start.map_or_else(|| problem.emitted(), |start| problem.of_lights(start));
+    let mut iteration: Box<dyn Iteration + '_> = match params.method {
+        Method::GaussSeidel(relaxation) => Box::new(GaussSeidel::new(&problem, x, relaxation)),
+        Method::ConjugateGradients => {
+            Box::new(ConjugateGradients::new(&problem, x, params.tolerance))
+        }
+    };
+    let mut residuals: Vec<f64> = Vec::new();
+    let (mut converged, mut error) = (problem.is_dark(), None);
+    while !converged && residuals.len() < params.max_passes as usize {
+        let reached = iteration.advance();
+        progress(reached.residual);
+        residuals.push(reached.residual);
+        converged = reached.residual <= params.tolerance;
+        error = reached.error;
+        if reached.suspicious || diagnosis::is_growing(&residuals) {
+            diagnosis::check_numbers(system)?;
+            diagnosis::check_spectral_radius(system)?;
+        }
+        if reached.stalled {
+            break;
+        }
+    }
+    if !converged {
+        diagnosis::check_spectral_radius(system)?;
+    }
+    let relaxation = iteration.relaxation();
+    let (x, sums) = iteration.finish();
+    let residual = problem.relative(|k| problem.residual_at(k, &sums[k], &x[k]));
+    Ok(Solution {
+        report: Convergence {
+            method: params.method,
+            converged,
+            residual,
+            residuals,
+            error,
+            relaxation,
+            energies: Energy::of_lights(system, &problem, &x, &sums),
+        },
+        lights: problem.to_lights(&x),
+    })
+}

@@ -1,0 +1,131 @@
+//! Several lights, dimmed, and other starting points.
+
+use super::*;
+
+fn two_lights() -> Case {
+    let mut case = Case::uniform_enclosure(30, [0.0; 3], [0.8, 0.6, 0.4]);
+    case.lights.push(case.lights[0].clone());
+    case.lights[0][3] = [10.0, 5.0, 1.0];
+    case.lights[1][20] = [0.1, 0.2, 0.4];
+    case
+}
+
+/// What a fresh solution of the dimmed lights gives, to the residuals and to single precision.
+#[test]
+fn relit_is_solved_anew() {
+    let case = two_lights();
+    let dimming = [[0.3, 0.2, 1.0], [7.0, 0.0, 2.0]];
+    let relit = case.solve(&Params::default()).relit(&dimming);
+    let mut dimmed = two_lights();
+    let lights = case.lights.iter().zip(&dimming);
+    dimmed.lights = vec![
+        (0..30)
+            .map(|i| {
+                std::array::from_fn(|c| {
+                    lights
+                        .clone()
+                        .map(|(light, dim)| light[i][c] * dim[c])
+                        .sum()
+                })
+            })
+            .collect(),
+    ];
+    let fresh = &dimmed.solve(&Params::default()).lights[0];
+    for (relit, fresh) in relit.as_flattened().iter().zip(fresh.as_flattened()) {
+        // Residuals of 1e-6 of emissions that are at most 40 times the radiosity of the others.
+        assert!((relit - fresh).abs() <= 1e-5 * fresh, "{relit} {fresh}");
+    }
+}
+
+#[test]
+fn powers_are_dimmed_like_radiosities() {
+    let solution = two_lights().solve(&Params::default());
+    let energy = solution.energy(&[[0.5, 1.0, 0.0], [2.0, 0.0, 1.0]]);
+    // Patches of area 2.
+    for (c, expected) in [10.0 + 0.4, 10.0, 0.8].into_iter().enumerate() {
+        assert!((energy.emitted[c] - expected).abs() < 1e-12);
+    }
+    assert!(energy.imbalance() < 1e-5);
+}
+
+/// The worst light decides, however dark it is.
+#[test]
+fn every_light_converges() {
+    let mut case = two_lights();
+    for channel in case.lights[1].as_flattened_mut() {
+        *channel *= 1e-20;
+    }
+    let solution = case.solve(&with(GAUSS_SEIDEL));
+    let alone = Case {
+        lights: vec![case.lights[1].clone()],
+        ..two_lights()
+    };
+    let alone = alone.solve(&Params {
+        tolerance: 0.0,
+        max_passes: solution.report.residuals.len() as u32,
+        ..with(GAUSS_SEIDEL)
+    });
+    assert_eq!(solution.lights[1], alone.lights[0]);
+    assert!(solution.report.residual <= 1e-6);
+}
+
+#[test]
+fn a_dark_light_is_dark() {
+    let mut case = two_lights();
+    case.lights[1] = vec![[0.0; 3]; 30];
+    let solution = case.solve(&Params::default());
+    assert!(solution.report.converged);
+    assert_eq!(solution.lights[1], vec![[0.0; 3]; 30]);
+}
+
+#[test]
+fn no_light_is_dark() {
+    let mut case = two_lights();
+    case.lights.clear();
+    for method in METHODS {
+        let solution = case.solve(&with(method));
+        assert!(solution.report.converged && solution.lights.is_empty());
+        assert!(solution.relit(&[]).is_empty());
+    }
+}
+
+/// The solution itself needs one pass to be known for one; that of another reflectance saves some.
+#[test]
+fn a_start_that_is_near_saves_passes() {
+    let case = two_lights();
+    for method in METHODS {
+        let cold = case.solve(&with(method));
+        let near = Case {
+            reflectance: vec![[0.79, 0.6, 0.41]; 30],
+            ..two_lights()
+        };
+        let from = |case: &Case, start: &Solution| {
+            solve(
+                &case.system(),
+                Some(&start.lights),
+                &with(method),
+                &mut |_| (),
+            )
+            .unwrap()
+        };
+        assert_eq!(from(&case, &cold).report.residuals.len(), 1, "{method:?}");
+        let (fresh, started) = (near.solve(&with(method)), from(&near, &cold));
+        assert!(started.report.converged);
+        let passes = |solution: &Solution| solution.report.residuals.len();
+        assert!(passes(&started) <= passes(&fresh), "{method:?}");
+    }
+}
+
+/// Powers far from 1, whose squares a double cannot hold.
+#[test]
+fn units_do_not_matter() {
+    for unit in [1e-30, 1e30] {
+        let mut case = Case::uniform_enclosure(5, [unit; 3], [0.5; 3]);
+        case.lights[0][0] = [0.0; 3];
+        for method in METHODS {
+            let report = case.solve(&with(method)).report;
+            assert!(report.converged && report.residuals.len() > 1, "{unit}");
+            assert!(report.energies[0].imbalance() < 1e-5);
+        }
+    }
+}

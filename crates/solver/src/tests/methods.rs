@@ -1,0 +1,179 @@
+//! What holds for every method.
+
+use super::*;
+
+#[test]
+fn furnace_has_its_closed_form() {
+    // In a closed enclosure of equal patches, B = E / (1 - rho). The residual bounds the error
+    // by tolerance / (1 - rho); f32 storage of the row sums adds 1e-7 / (1 - rho).
+    let case = Case::uniform_enclosure(50, [1.0, 2.0, 0.5], [0.5, 0.8, 0.0]);
+    let expected = [2.0, 10.0, 0.5];
+    for method in METHODS {
+        for b in &case.solve(&with(method)).lights[0] {
+            for c in 0..3 {
+                let error = (f64::from(b[c]) / expected[c] - 1.0).abs();
+                assert!(error < 1.1e-6 / (1.0 - 0.8), "{method:?}: {error}");
+            }
+        }
+    }
+}
+
+#[test]
+fn black_surfaces_keep_their_emission() {
+    let case = Case::uniform_enclosure(5, [0.25, 1.0, 3.0], [0.0; 3]);
+    for method in METHODS {
+        let solution = case.solve(&with(method));
+        assert_eq!(solution.lights, [vec![[0.25, 1.0, 3.0]; 5]]);
+        assert!(solution.report.converged && solution.report.residuals.len() == 1);
+    }
+}
+
+#[test]
+fn darkness_needs_no_pass() {
+    for method in METHODS {
+        let solution = Case::uniform_enclosure(5, [0.0; 3], [0.5; 3]).solve(&with(method));
+        assert_eq!(solution.lights, [vec![[0.0; 3]; 5]]);
+        assert!(solution.report.converged && solution.report.residuals.is_empty());
+    }
+}
+
+#[test]
+fn running_out_of_passes_is_reported() {
+    let mut case = Case::uniform_enclosure(5, [1.0; 3], [0.99; 3]);
+    case.lights[0][0] = [0.0; 3];
+    for method in METHODS {
+        let params = Params {
+            max_passes: 1,
+            ..with(method)
+        };
+        let report = case.solve(&params).report;
+        assert!(!report.converged && report.residual > 1e-6);
+        assert_eq!(report.residuals.len(), 1);
+    }
+}
+
+/// Single precision has no better solution than some 1e-7.
+#[test]
+fn nothing_is_done_when_nothing_changes_any_more() {
+    let mut case = Case::uniform_enclosure(20, [1.0, 0.3, 0.7], [0.3, 0.4, 0.5]);
+    case.lights[0][3] = [0.0; 3];
+    let params = Params {
+        tolerance: 1e-12,
+        ..with(GAUSS_SEIDEL)
+    };
+    let report = case.solve(&params).report;
+    assert!(!report.converged && report.residual < 2e-7);
+    assert!(report.residuals.len() < 40, "{}", report.residuals.len());
+}
+
+proptest! {
+    /// All methods find the same, within what their residuals allow: rows times reflectance sum to
+    /// less than 0.9 / 2.
+    #[test]
+    fn methods_agree(case in random_case()) {
+        let expected = case.solve(&with(GAUSS_SEIDEL));
+        for method in METHODS {
+            let found = case.solve(&with(method));
+            prop_assert!(found.report.converged && found.report.residual <= 1e-6);
+            for (found, (expected, emission)) in
+                found.lights.iter().zip(expected.lights.iter().zip(&case.lights))
+            {
+                let (found, expected) = (in_double(found), in_double(expected));
+                let differences = found.iter().zip(&expected);
+                let difference: Vec<Rgb> = differences
+                    .map(|(a, b)| std::array::from_fn(|c| a[c] - b[c]))
+                    .collect();
+                let bound = 2.0 * 1.2e-6 / (1.0 - 0.45) * norm(&case, emission);
+                // In the norm in which rho F contracts, weights are A / rho instead of A.
+                prop_assert!(norm(&case, &difference) <= 4.0 * bound);
+            }
+        }
+    }
+
+    /// Emitted = absorbed + escaped, up to the residual, where rows say the truth of what escapes.
+    #[test]
+    fn energy_balances(case in random_case()) {
+        for method in METHODS {
+            for energy in case.solve(&with(method)).report.energies {
+                prop_assert!(energy.imbalance() < 1e-5);
+            }
+        }
+    }
+
+    /// Twice the emission, twice the radiosity; exact, since powers of two only move exponents.
+    #[test]
+    fn radiosity_is_linear_in_emission(case in random_case()) {
+        for method in METHODS {
+            let solution = case.solve(&with(method));
+            let double = |light: &Vec<Rgb>| light.iter().map(|e| e.map(|c| 2.0 * c)).collect();
+            let lights = case.lights.iter().map(double).collect();
+            let doubled = solve(
+                &System { lights: &Vec::from_iter::<Vec<Vec<Rgb>>>(lights), ..case.system() },
+                None,
+                &with(method),
+                &mut |_| (),
+            );
+            let doubled = doubled.unwrap();
+            for (one, two) in solution.lights.iter().zip(&doubled.lights) {
+                let twice: Vec<[f32; 3]> = one.iter().map(|b| b.map(|c| 2.0 * c)).collect();
+                prop_assert_eq!(&twice, two);
+            }
+        }
+    }
+}
+
+/// The estimated error holds, within a factor, in rooms where light dies away slowly.
+#[test]
+fn errors_are_known() {
+    for rho in [0.5, 0.9, 0.97] {
+        let mut case = Case::uniform_enclosure(40, [0.0; 3], [rho; 3]);
+        case.lights[0][0] = [1.0, 2.0, 3.0];
+        let precise = Params {
+            tolerance: 2e-7,
+            ..with(Method::ConjugateGradients)
+        };
+        let truth = in_double(&case.solve(&precise).lights[0]);
+        for method in METHODS {
+            let params = Params {
+                tolerance: 1e-4,
+                ..with(method)
+            };
+            let solution = case.solve(&params);
+            let found = in_double(&solution.lights[0]);
+            let difference = found.iter().zip(&truth);
+            let difference: Vec<Rgb> = difference
+                .map(|(a, b)| std::array::from_fn(|c| a[c] - b[c]))
+                .collect();
+            let error = norm(&case, &difference) / norm(&case, &truth);
+            let Some(estimate) = solution.report.error else {
+                continue;
+            };
+            assert!(
+                error <= 2.0 * estimate + 1e-6,
+                "{rho} {method:?}: {error} {estimate}"
+            );
+        }
+    }
+}
+
+/// In the room of equal patches, the first sweeps tell the reflectance, and with it the best factor:
+/// one that is greater or smaller needs more sweeps.
+#[test]
+fn the_automatic_factor_is_the_best_in_a_uniform_room() {
+    for rho in [0.5, 0.9, 0.95] {
+        let mut case = Case::uniform_enclosure(300, [0.0; 3], [rho; 3]);
+        case.lights[0][77] = [1.0; 3];
+        let run =
+            |relaxation: Relaxation| case.solve(&with(Method::GaussSeidel(relaxation))).report;
+        let report = run(Relaxation::Automatic);
+        let found = report.relaxation.unwrap();
+        let sweeps = |factor: f64| run(Relaxation::Factor(factor)).residuals.len();
+        println!("{rho}: {found}, {} sweeps", report.residuals.len());
+        // The first sweeps, which only look, may cost two.
+        let most = report.residuals.len() - 2;
+        for other in [1.0, found - 0.1, found + 0.15] {
+            assert!(sweeps(other) >= most, "{rho} {other}: {}", sweeps(other));
+        }
+        assert!(report.residuals.len() < sweeps(1.0));
+    }
+}

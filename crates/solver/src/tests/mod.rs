@@ -1,0 +1,126 @@
+//! Small systems to test with.
+
+mod iterates;
+mod lights;
+mod methods;
+mod trouble;
+
+use crate::*;
+use proptest::prelude::*;
+use radiosity_matrix::{SymmetricMatrix, packed_len};
+
+#[derive(Debug)]
+struct Case {
+    exchange: SymmetricMatrix,
+    areas: Vec<f64>,
+    lights: Vec<Vec<Rgb>>,
+    reflectance: Vec<Rgb>,
+    /// What rows miss to 1.
+    background: Vec<f64>,
+    backs: Vec<f64>,
+}
+
+const GAUSS_SEIDEL: Method = Method::GaussSeidel(Relaxation::Factor(1.0));
+const METHODS: [Method; 4] = [
+    GAUSS_SEIDEL,
+    Method::GaussSeidel(Relaxation::Factor(1.2)),
+    Method::GaussSeidel(Relaxation::Automatic),
+    Method::ConjugateGradients,
+];
+
+fn with(method: Method) -> Params {
+    Params {
+        method,
+        ..Params::default()
+    }
+}
+
+impl Case {
+    fn new(
+        exchange: SymmetricMatrix,
+        areas: Vec<f64>,
+        lights: Vec<Vec<Rgb>>,
+        reflectance: Vec<Rgb>,
+    ) -> Case {
+        let total: f64 = areas.iter().sum();
+        let sums = exchange.row_sums().into_iter().zip(&areas);
+        Case {
+            background: sums.map(|(sum, area)| 1.0 - sum * total / area).collect(),
+            backs: vec![0.0; areas.len()],
+            exchange,
+            areas,
+            lights,
+            reflectance,
+        }
+    }
+
+    /// A closed enclosure in which everything sees everything else equally.
+    fn uniform_enclosure(size: usize, emission: Rgb, reflectance: Rgb) -> Case {
+        let row_sum_one = 1.0 / (size * (size - 1)) as f32;
+        Case::new(
+            SymmetricMatrix::new(size, vec![row_sum_one; packed_len(size)]).unwrap(),
+            vec![2.0; size],
+            vec![vec![emission; size]],
+            vec![reflectance; size],
+        )
+    }
+
+    fn system(&self) -> System<'_> {
+        System {
+            exchange: &self.exchange,
+            areas: &self.areas,
+            reflectance: &self.reflectance,
+            lights: &self.lights,
+            backs: &self.backs,
+            background: &self.background,
+        }
+    }
+
+    fn solve(&self, params: &Params) -> Solution {
+        solve(&self.system(), None, params, &mut |_| ()).unwrap()
+    }
+}
+
+/// Systems of one light or two, of which rows sum to at most 1.
+fn random_case() -> impl Strategy<Value = Case> {
+    (2usize..12, 1usize..3).prop_flat_map(|(size, lights)| {
+        let channel = || 0.0f64..1.0;
+        let emission = prop::collection::vec([channel(), channel(), channel()], size);
+        let exchange = prop::collection::vec(0.0f32..1.0, packed_len(size));
+        let areas = prop::collection::vec(0.5f64..2.0, size);
+        let lights = prop::collection::vec(emission, lights);
+        let reflectance = prop::collection::vec([0.0f64..0.9, 0.0f64..0.9, 0.0f64..0.9], size);
+        (exchange, areas, lights, reflectance).prop_map(
+            move |(mut exchange, areas, lights, reflectance)| {
+                // S_ij <= smallest area / (n - 1), in units of the total.
+                let total: f64 = areas.iter().sum();
+                let scale = (0.5 / total / (size - 1) as f64) as f32;
+                exchange.iter_mut().for_each(|s| *s *= scale);
+                let exchange = SymmetricMatrix::new(size, exchange).unwrap();
+                Case::new(exchange, areas, lights, reflectance)
+            },
+        )
+    })
+}
+
+/// The irradiance at a patch, on full rows, in double precision.
+fn irradiance(case: &Case, i: usize, x: &[Rgb]) -> Rgb {
+    let total: f64 = case.areas.iter().sum();
+    let factor = |j: usize| f64::from(case.exchange.get(i, j)) * total / case.areas[i];
+    std::array::from_fn(|c| (0..x.len()).map(|j| factor(j) * x[j][c]).sum())
+}
+
+/// The area-weighted L2 norm.
+fn norm(case: &Case, values: &[Rgb]) -> f64 {
+    let square = |(v, area): (&Rgb, &f64)| area * v.iter().map(|c| c * c).sum::<f64>();
+    values
+        .iter()
+        .zip(&case.areas)
+        .map(square)
+        .sum::<f64>()
+        .sqrt()
+}
+
+fn in_double(radiosity: &[[f32; 3]]) -> Vec<Rgb> {
+    radiosity.iter().map(|b| b.map(f64::from)).collect()
+}

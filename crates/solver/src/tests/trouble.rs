@@ -1,0 +1,103 @@
+//! Systems without a solution.
+
+use super::*;
+
+#[test]
+fn a_system_that_makes_light_names_its_worst_patches() {
+    let mut case = Case::uniform_enclosure(5, [1.0; 3], [0.9; 3]);
+    let mut values = case.exchange.values().to_vec();
+    values[packed_len(3) + 1] *= 10.0;
+    case.exchange = SymmetricMatrix::new(5, values).unwrap();
+    for method in METHODS {
+        let error = solve(&case.system(), None, &with(method), &mut |_| ()).unwrap_err();
+        let SolveError::Diverges {
+            spectral_radius,
+            worst_patches,
+        } = error
+        else {
+            panic!("expected divergence, got {error}");
+        };
+        assert!(spectral_radius > 1.0);
+        let mut worst = worst_patches[..2].to_vec();
+        worst.sort_unstable();
+        assert_eq!(worst, [1, 3]);
+    }
+}
+
+#[test]
+fn barely_diverging_systems_are_caught_at_the_limit_of_passes() {
+    // rho = 1 in a closed room: light never goes away.
+    let case = Case::uniform_enclosure(5, [1.0; 3], [1.0; 3]);
+    let error = solve(&case.system(), None, &Params::default(), &mut |_| ());
+    // f32 row sums lie within 1e-7 of 1, so either side of the threshold is honest.
+    match error {
+        Err(SolveError::Diverges {
+            spectral_radius, ..
+        }) => {
+            assert!((spectral_radius - 1.0).abs() < 1e-6);
+        }
+        Ok(solution) => assert!(!solution.report.converged),
+        Err(other) => panic!("{other}"),
+    }
+}
+
+/// Two plates that see each other alone: the eigenvalues come in pairs of either sign.
+fn plates(factor: f32, reflectances: [f64; 2]) -> Case {
+    Case::new(
+        SymmetricMatrix::new(2, vec![0.5 * factor]).unwrap(),
+        vec![1.0; 2],
+        vec![vec![[1.0; 3]; 2]],
+        reflectances.map(|rho| [rho; 3]).to_vec(),
+    )
+}
+
+/// The spectral radius is F sqrt(rho_1 rho_2), whatever its sign does.
+#[test]
+fn plates_diverge_exactly_when_they_must() {
+    let system = plates(11.0, [1.0, 0.01]);
+    let error = solve(&system.system(), None, &Params::default(), &mut |_| ());
+    let Err(SolveError::Diverges {
+        spectral_radius,
+        worst_patches,
+    }) = error
+    else {
+        panic!("a radius of 1.1 diverges");
+    };
+    assert!((spectral_radius - 1.1).abs() < 1e-6);
+    assert_eq!(worst_patches, [0, 1]);
+    let stopped_early = Params {
+        max_passes: 2,
+        ..Params::default()
+    };
+    let fine = plates(6.3, [1.0, 0.01]);
+    assert!(!fine.solve(&stopped_early).report.converged);
+    assert!(fine.solve(&Params::default()).report.converged);
+}
+
+#[test]
+fn a_quick_explosion_is_explained_too() {
+    let system = plates(1e9, [1.0, 1.0]);
+    for method in METHODS {
+        let error = solve(&system.system(), None, &with(method), &mut |_| ());
+        assert!(
+            matches!(error, Err(SolveError::Diverges { .. })),
+            "{method:?} {error:?}"
+        );
+    }
+}
+
+#[test]
+fn numbers_that_are_not_finite_are_traced_to_their_patch() {
+    let mut case = Case::uniform_enclosure(5, [1.0; 3], [0.5; 3]);
+    case.lights[0][3][1] = f64::NAN;
+    let error = solve(&case.system(), None, &Params::default(), &mut |_| ()).unwrap_err();
+    assert_eq!(error, SolveError::NotFinite { patch: 3 });
+    let mut case = Case::uniform_enclosure(5, [1.0; 3], [0.5; 3]);
+    let mut values = case.exchange.values().to_vec();
+    values[packed_len(4) + 2] = f32::NAN;
+    case.exchange = SymmetricMatrix::new(5, values).unwrap();
+    for method in METHODS {
+        let error = solve(&case.system(), None, &with(method), &mut |_| ()).unwrap_err();
+        assert_eq!(error, SolveError::NotFinite { patch: 2 });
+    }
+}

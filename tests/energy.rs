@@ -1,0 +1,127 @@
+//! Where the power goes, against rays that know nothing of form factors.
+
+use radiosity::geometry::{DVec3, Occluders, Patch, Polygon, Ray};
+use radiosity::scene::Mode;
+use radiosity::solver::Energy;
+use radiosity::{Pipeline, Solved, Sources};
+use radiosity_tests::{pipeline, shipped, solve};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use std::f64::consts::TAU;
+
+const RAYS: u32 = 400_000;
+/// The channel that is traced.
+const GREEN: usize = 1;
+
+/// Shares of the power that leaves all patches.
+#[derive(Clone, Copy, Debug, Default)]
+struct Shares {
+    fronts: f64,
+    backs: f64,
+    background: f64,
+}
+
+/// From patches in proportion to the power that leaves them, in the direction of diffuse light.
+fn traced(pipeline: &Pipeline<'_>, radiosity: &[[f32; 3]]) -> Shares {
+    let mesh = pipeline.mesh();
+    let occluders = Occluders::new(mesh);
+    let mut ends = Vec::new();
+    let mut power = 0.0;
+    for (patch, b) in mesh.patches.iter().zip(radiosity) {
+        power += patch.area * f64::from(b[GREEN]);
+        ends.push(power);
+    }
+    let mut rng = Pcg64Mcg::seed_from_u64(7);
+    let mut counts = [0u32; 3];
+    for _ in 0..RAYS {
+        let wanted = power * rng.random::<f64>();
+        let index = ends.partition_point(|&end| end <= wanted);
+        let patch = &mesh.patches[index];
+        let ray = Ray::new(point_on(patch, &mut rng), direction(patch.normal, &mut rng));
+        let hit = occluders.closest_hit(&ray, 0.0, f64::INFINITY, Some(patch.face));
+        let what = hit.map_or(2, |hit| usize::from(!hit.front));
+        counts[what] += 1;
+    }
+    let [fronts, backs, background] = counts.map(|count| f64::from(count) / f64::from(RAYS));
+    Shares {
+        fronts,
+        backs,
+        background,
+    }
+}
+
+fn point_on(patch: &Patch, rng: &mut Pcg64Mcg) -> DVec3 {
+    let polygon: &Polygon = &patch.polygon;
+    let (mut u, mut v): (f64, f64) = (rng.random(), rng.random());
+    if !polygon.is_triangle() {
+        // The shipped scenes have parallelograms alone, where this is uniform.
+        return polygon.bilinear(u, v);
+    }
+    if u + v > 1.0 {
+        (u, v) = (1.0 - u, 1.0 - v);
+    }
+    polygon.barycentric(u, v)
+}
+
+/// By Malley's method: a uniform point of the disk, raised to the hemisphere.
+fn direction(normal: DVec3, rng: &mut Pcg64Mcg) -> DVec3 {
+    let (across, along) = normal.any_orthonormal_pair();
+    let (radius, angle) = (rng.random::<f64>().sqrt(), TAU * rng.random::<f64>());
+    let (x, y) = (radius * angle.cos(), radius * angle.sin());
+    x * across + y * along + (1.0 - x * x - y * y).max(0.0).sqrt() * normal
+}
+
+/// What the report says, as shares of the power that leaves all patches.
+fn reported(pipeline: &Pipeline<'_>, solved: &Solved) -> Shares {
+    let patches = pipeline.mesh().patches.iter().zip(&solved.radiosity);
+    let power: f64 = patches
+        .map(|(patch, b)| patch.area * f64::from(b[GREEN]))
+        .sum();
+    let Energy {
+        emitted,
+        absorbed,
+        to_backs,
+        to_background,
+    } = solved.energy;
+    Shares {
+        // What arrives at fronts is absorbed there, or leaves them again: it is all that leaves but
+        // what was emitted.
+        fronts: (absorbed[GREEN] + power - emitted[GREEN]) / power,
+        backs: to_backs[GREEN] / power,
+        background: to_background[GREEN] / power,
+    }
+}
+
+#[test]
+fn power_arrives_where_rays_do() {
+    for name in ["cornell", "cornell-closed", "cornell-triangles", "furnace"] {
+        let mut scene = shipped(name);
+        scene.form_factors.mode = Mode::Accurate;
+        let pipeline = pipeline(&scene);
+        let solved = solve(&pipeline);
+        assert!(solved.solution.report.converged, "{name}");
+        let (found, expected) = (
+            reported(&pipeline, &solved),
+            traced(&pipeline, &solved.radiosity),
+        );
+        println!("{name}: {found:?}, by rays {expected:?}");
+        for (found, expected) in [
+            (found.fronts, expected.fronts),
+            (found.backs, expected.backs),
+            (found.background, expected.background),
+        ] {
+            // A count of n rays scatters by its root; rows know what they see by 256 rays each,
+            // more together than are traced here. Four standard errors of both.
+            let noise = (expected * (1.0 - expected) / f64::from(RAYS)).sqrt();
+            assert!(
+                (found - expected).abs() <= 4.0 * 2f64.sqrt() * noise + 1e-4,
+                "{name}"
+            );
+        }
+        let rows = pipeline.form_factors(Sources::Cached).unwrap().rows;
+        assert!(
+            rows.excessive == 0 && solved.energy.imbalance() < 2e-3,
+            "{name}"
+        );
+    }
+}
