@@ -1,8 +1,10 @@
 //! `cargo xtask bench`: what is claimed, measured anew.
 
 mod baseline;
+mod course;
 mod form_factors;
 mod machine;
+mod solver;
 mod truth;
 mod view_factors;
 mod visibility;
@@ -33,6 +35,13 @@ pub(crate) enum Bench {
     },
     /// Segments among 70,000 triangles, beside Embree if it is installed (Debian: libembree-dev)
     Visibility {
+        /// Print one JSON object per figure: name, value, unit, target, holds
+        #[arg(long)]
+        json: bool,
+    },
+    /// The solver: passes beside the bandwidth of memory, what each method takes, and the course's
+    /// loop (a minute)
+    Solver {
         /// Print one JSON object per figure: name, value, unit, target, holds
         #[arg(long)]
         json: bool,
@@ -133,6 +142,7 @@ fn line(text: &str) {
 pub(crate) fn run(bench: Bench, root: &Path) -> ExitCode {
     let result = match bench {
         Bench::FormFactors { json } => form_factors::run(root, json),
+        Bench::Solver { json } => solver::run(root, json),
         Bench::Truth { json } => truth::run(root, json),
         Bench::ViewFactors { json } => view_factors::run(root, json),
         Bench::Visibility { json } => visibility::run(root, json),

@@ -12,11 +12,12 @@
 //! on every band, on all threads, while the numbers of the first block are still in the
 //! processor's cache. Only the triangle on the diagonal goes row by row.
 //!
-//! Sums are in single precision over a tile and in double precision beyond, in an order that
+//! Sums are in single precision over a band and in double precision beyond, in an order that
 //! neither threads nor instruction sets have a part in.
 
 mod band;
 mod step;
+mod team;
 
 #[cfg(test)]
 mod tests;
@@ -24,9 +25,8 @@ mod tests;
 use crate::{SymmetricMatrix, packed_row};
 use band::{BLOCK, Band, Block, WIDTH};
 use radiosity_simd::InstructionSet;
-use rayon::prelude::*;
 use std::ops::Range;
-use step::Step;
+use team::Team;
 
 /// Three vectors side by side at a row: the colours of a light.
 pub type Triple<T> = [T; 3];
@@ -34,8 +34,8 @@ pub type Triple<T> = [T; 3];
 /// Is told a row, its sums, and its values, which it may change.
 pub type Update<'a> = dyn FnMut(usize, &[Triple<f64>], &mut [Triple<f32>]) + Send + 'a;
 
-/// A step over fewer numbers than this is not worth more than one thread.
-const WORTH_THREADS: usize = 1 << 15;
+/// A thread for fewer rows than this is more trouble than help.
+const WORTH_A_THREAD: usize = 2048;
 
 impl SymmetricMatrix {
     /// Goes through all rows once, for vectors side by side: `x[i * triples + k]` holds the vectors
@@ -55,8 +55,7 @@ impl SymmetricMatrix {
         triples: usize,
         update: &mut Update<'_>,
     ) -> Vec<Triple<f64>> {
-        // In a thread of the pool: from outside, each step would have to call for it.
-        rayon::scope(|_| self.sweep_on(InstructionSet::current(), x, triples, update))
+        self.sweep_on(InstructionSet::current(), x, triples, update)
     }
 
     fn sweep_on(
@@ -70,27 +69,54 @@ impl SymmetricMatrix {
         if x.is_empty() {
             return Vec::new();
         }
-        let mut bands: Vec<Band> = (0..self.size())
-            .step_by(WIDTH)
-            .map(|start| Band::new(start, x, triples))
-            .collect();
-        let mut last: Option<Block<'_>> = None;
+        let bands = (0..self.size()).step_by(WIDTH);
+        let bands = bands.map(|start| Band::new(start, x, triples)).collect();
+        let members = self.worth_threads();
+        let team = Team::new(set, bands, members);
+        rayon::scope(|scope| {
+            let _dismissal = team.dismissed_at_end();
+            let team = &team;
+            (1..members).for_each(|member| scope.spawn(move |_| team.help(member)));
+            self.lead(team, x, triples, update);
+        });
+        let mut below = Vec::with_capacity(x.len().next_multiple_of(WIDTH));
+        team.into_bands()
+            .for_each(|band| band.append_below(&mut below));
+        below.truncate(x.len());
+        below
+    }
+
+    /// Takes all steps, and solves each block between two of them.
+    fn lead<'a>(
+        &'a self,
+        team: &Team<'a>,
+        x: &mut [Triple<f32>],
+        triples: usize,
+        update: &mut Update<'_>,
+    ) {
+        let mut last: Option<Block<'a>> = None;
         for first in (0..self.size()).step_by(BLOCK) {
             let rows = first..self.size().min(first + BLOCK);
-            let next = Block::new(self, &rows, triples);
-            step(set, &mut bands, last.as_ref(), Some(&next));
+            let bands = first.div_ceil(WIDTH);
+            let next = team.lead(bands, last, Some(Block::new(self, &rows, triples)));
             let mut above = vec![[0.0; 3]; BLOCK * triples];
-            for band in &bands[..first.div_ceil(WIDTH)] {
-                band.add_products(&mut above);
-            }
+            (0..bands).for_each(|band| team.band(band).add_products(&mut above));
             let below = self.triangle(&rows, &mut above, x, triples, update);
             let values = &x[rows.start * triples..rows.end * triples];
-            bands[first / WIDTH].set(first % WIDTH, values, &below);
-            last = Some(next.with_values(values));
+            team.band(first / WIDTH).set(first % WIDTH, values, &below);
+            last = next.map(|block| block.with_values(values));
         }
-        step(set, &mut bands, last.as_ref(), None);
-        let below = bands.iter().flat_map(Band::below);
-        below.take(x.len()).collect()
+        let bands = last.as_ref().map_or(0, |last| last.first.div_ceil(WIDTH));
+        team.lead(bands, last, None);
+    }
+
+    /// How many threads a sweep keeps busy.
+    fn worth_threads(&self) -> usize {
+        let processors = std::thread::available_parallelism().map_or(1, usize::from);
+        let bands = self.size() / WORTH_A_THREAD;
+        rayon::current_num_threads()
+            .min(processors)
+            .min(bands.max(1))
     }
 
     /// The part of a block that its own rows have in each other, row by row. `above` holds the sums
@@ -130,22 +156,5 @@ pub(crate) fn add_scaled(sums: &mut [Triple<f64>], factor: f32, x: &[Triple<f32>
         for c in 0..3 {
             sum[c] += f64::from(factor) * f64::from(x[c]);
         }
-    }
-}
-
-/// Adds the last block to the sums above it, and takes the products of the next one.
-fn step(
-    set: InstructionSet,
-    bands: &mut [Band],
-    last: Option<&Block<'_>>,
-    next: Option<&Block<'_>>,
-) {
-    let columns = next.or(last).map_or(0, |block| block.first);
-    let on = |band: &mut Band| set.run(Step { band, last, next });
-    let used = &mut bands[..columns.div_ceil(WIDTH)];
-    if columns * BLOCK < WORTH_THREADS {
-        used.iter_mut().for_each(on);
-    } else {
-        used.par_iter_mut().for_each(on);
     }
 }

@@ -5,12 +5,10 @@ use crate::{SymmetricMatrix, packed_row};
 use radiosity_simd::LANES;
 use std::ops::Range;
 
-/// Columns of a band, and rows of a block.
-pub(super) const WIDTH: usize = 1024;
+/// Columns of a band, over which sums are in single precision, and rows of a block.
+pub(super) const WIDTH: usize = 512;
 pub(super) const BLOCK: usize = 16;
-/// Pieces of a band, and of a tile, over which sums are in single precision.
 pub(super) const PIECES: usize = WIDTH / LANES;
-pub(super) const TILE: usize = PIECES / 2;
 
 pub(super) type Lanes<T> = [T; LANES];
 /// Stretches of the rows of a block, all as long.
@@ -58,13 +56,13 @@ impl<'a> Block<'a> {
         }
     }
 
-    /// The rows in a tile, by its first piece.
+    /// The rows in a band.
     #[inline(always)]
-    pub(super) fn pieces(&self, start: usize) -> Pieces<'a> {
-        let end = self.first / LANES;
+    pub(super) fn pieces(&self, band: &Band) -> Pieces<'a> {
+        let (start, end) = (band.start / LANES, self.first / LANES);
         let mut pieces = self.rows;
         for row in &mut pieces {
-            *row = &row[start.min(end)..end.min(start + TILE)];
+            *row = &row[start.min(end)..end.min(start + PIECES)];
         }
         pieces
     }
@@ -128,13 +126,12 @@ impl Band {
         }
     }
 
-    /// The sums below the diagonal, column by column.
-    pub(super) fn below(&self) -> impl Iterator<Item = Triple<f64>> {
-        (0..WIDTH).flat_map(|column| {
-            let of_column = move |of_band: &OfBand| {
-                std::array::from_fn(|c| of_band.below[c].as_flattened()[column])
-            };
-            self.triples.iter().map(of_column)
-        })
+    /// Appends the sums below the diagonal, column by column.
+    pub(super) fn append_below(&self, sums: &mut Vec<Triple<f64>>) {
+        for column in 0..WIDTH {
+            let of_column =
+                |of_band: &OfBand| std::array::from_fn(|c| of_band.below[c].as_flattened()[column]);
+            sums.extend(self.triples.iter().map(of_column));
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! What one step of a sweep does on a band of columns.
 
 use super::Triple;
-use super::band::{BLOCK, Band, Block, Lanes, OfBand, PIECES, Pieces, TILE};
-use radiosity_simd::{Float, Kernel, LANES, Simd};
+use super::band::{BLOCK, Band, Block, Lanes, OfBand, PIECES, Pieces};
+use radiosity_simd::{Float, Kernel, Simd};
 
 /// Rows whose products are taken together: their sums fit into the registers.
 const QUAD: usize = 4;
@@ -25,38 +25,28 @@ impl Kernel for Step<'_> {
         for triple in &mut band.triples {
             triple.products = [[0.0; BLOCK]; 3];
         }
-        for tile in (0..PIECES).step_by(TILE) {
-            let start = band.start / LANES + tile;
-            // The first triple's numbers come from memory, and are still at hand for the others.
-            if let Some(last) = last {
-                let rows = last.pieces(start);
-                let mut triples = band.triples.iter_mut().zip(&last.values);
-                if let Some((triple, values)) = triples.next() {
-                    add::<S, true>(simd, &rows, values, below_from(triple, tile));
-                }
-                for (triple, values) in triples {
-                    add::<S, false>(simd, &rows, values, below_from(triple, tile));
-                }
+        // The first triple's numbers come from memory, and are still at hand for the others.
+        if let Some(last) = last {
+            let rows = last.pieces(band);
+            let mut triples = band.triples.iter_mut().zip(&last.values);
+            if let Some((triple, values)) = triples.next() {
+                add::<S, true>(simd, &rows, values, &mut triple.below);
             }
-            if let Some(next) = next {
-                let rows = next.pieces(start);
-                let mut triples = band.triples.iter_mut();
-                if let Some(triple) = triples.next() {
-                    multiply::<S, true>(simd, &rows, tile, triple);
-                }
-                for triple in triples {
-                    multiply::<S, false>(simd, &rows, tile, triple);
-                }
+            for (triple, values) in triples {
+                add::<S, false>(simd, &rows, values, &mut triple.below);
+            }
+        }
+        if let Some(next) = next {
+            let rows = next.pieces(band);
+            let mut triples = band.triples.iter_mut();
+            if let Some(triple) = triples.next() {
+                multiply::<S, true>(simd, &rows, triple);
+            }
+            for triple in triples {
+                multiply::<S, false>(simd, &rows, triple);
             }
         }
     }
-}
-
-/// The sums from a tile on.
-#[inline(always)]
-fn below_from(triple: &mut OfBand, tile: usize) -> Triple<&mut [Lanes<f64>]> {
-    let [x, y, z] = &mut triple.below;
-    [&mut x[tile..], &mut y[tile..], &mut z[tile..]]
 }
 
 /// Adds the rows times their values to the sums. `FETCH` has what is needed next fetched.
@@ -65,16 +55,16 @@ fn add<S: Simd, const FETCH: bool>(
     simd: S,
     rows: &Pieces<'_>,
     values: &Triple<[f32; BLOCK]>,
-    mut sums: Triple<&mut [Lanes<f64>]>,
+    sums: &mut Triple<[Lanes<f64>; PIECES]>,
 ) {
     const AT_ONCE: usize = 4;
     let pieces = rows[0].len();
     let whole = pieces - pieces % AT_ONCE;
     for first in (0..whole).step_by(AT_ONCE) {
-        add_pieces::<S, AT_ONCE, FETCH>(simd, rows, first, values, &mut sums);
+        add_pieces::<S, AT_ONCE, FETCH>(simd, rows, first, values, sums);
     }
     for first in whole..pieces {
-        add_pieces::<S, 1, false>(simd, rows, first, values, &mut sums);
+        add_pieces::<S, 1, false>(simd, rows, first, values, sums);
     }
 }
 
@@ -84,7 +74,7 @@ fn add_pieces<S: Simd, const COUNT: usize, const FETCH: bool>(
     rows: &Pieces<'_>,
     first: usize,
     values: &Triple<[f32; BLOCK]>,
-    sums: &mut Triple<&mut [Lanes<f64>]>,
+    sums: &mut Triple<[Lanes<f64>; PIECES]>,
 ) {
     let mut parts = [[simd.splat_f32(0.0); 3]; COUNT];
     for row in 0..BLOCK {
@@ -109,16 +99,11 @@ fn add_pieces<S: Simd, const COUNT: usize, const FETCH: bool>(
     }
 }
 
-/// Adds the products of rows with the values of a tile. `FETCH` as in [`add`].
+/// Adds the products of rows with the values of a band. `FETCH` as in [`add`].
 #[inline(always)]
-fn multiply<S: Simd, const FETCH: bool>(
-    simd: S,
-    rows: &Pieces<'_>,
-    tile: usize,
-    triple: &mut OfBand,
-) {
+fn multiply<S: Simd, const FETCH: bool>(simd: S, rows: &Pieces<'_>, triple: &mut OfBand) {
     let [x, y, z] = &triple.x;
-    let x = [x, y, z].map(|x| x[tile..].as_chunks::<2>().0);
+    let x = [x, y, z].map(|x| x.as_chunks::<2>().0);
     for quad in (0..BLOCK).step_by(QUAD) {
         let rows: [&[[Lanes<f32>; 2]]; QUAD] =
             std::array::from_fn(|k| rows[quad + k].as_chunks().0);

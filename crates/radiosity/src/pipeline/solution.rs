@@ -155,7 +155,8 @@ impl Pipeline<'_> {
         self.id(SOLUTION, Key::of(SOLUTION, solver::VERSION, &inputs))
     }
 
-    fn solve(&self, form_factors: &FormFactors) -> Result<Solution, Error> {
+    /// Stage 3 alone, with these form factors and without the cache.
+    pub fn solve(&self, form_factors: &FormFactors) -> Result<Solution, Error> {
         let share = |share: fn(&radiosity_form_factors::RowFacts) -> f64| -> Vec<f64> {
             form_factors.rows.iter().map(share).collect()
         };
