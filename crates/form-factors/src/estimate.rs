@@ -97,9 +97,10 @@ impl<'a> Estimation<'a> {
             let mut sum = 0.0;
             let mut room = Room::default();
             let add = |_, _, told: Told| sum += told.value;
-            self.against(tile, group, &mut room, &mut { add });
-            std::hint::black_box(sum);
             let patches = |tile: &Tile| tile.patches.len() as u64;
+            let lanes = 0..tiles[tile].patches.len();
+            self.against((tile, lanes), group, &mut room, &mut { add });
+            std::hint::black_box(sum);
             let of_group = tiles[group.tiles.clone()].iter().map(patches);
             patches(&tiles[tile]) * of_group.sum::<u64>()
         };
@@ -170,6 +171,24 @@ impl<'a> Estimation<'a> {
             });
     }
 
+    /// The patches in runs of up to eight that lie close together, on one face unless faces are
+    /// small.
+    pub fn clusters(&self) -> impl Iterator<Item = &[usize]> {
+        self.tiling.tiles.iter().map(|tile| tile.patches.as_slice())
+    }
+
+    /// `S_ij`, in units of the total area, of one patch `i` with all patches: a row by itself, for
+    /// whoever does not want all. The patch is named by its cluster and its place in it.
+    pub fn row(&self, cluster: usize, place: usize) -> Vec<f32> {
+        let mut row = vec![0.0; self.mesh.patches.len()];
+        let mut room = Room::default();
+        let mut tell = |_, j: usize, told: Told| row[j] = told.value;
+        for group in &self.tiling.groups {
+            self.against((cluster, place..place + 1), group, &mut room, &mut tell);
+        }
+        row
+    }
+
     /// What all rows together make, once all are filled.
     pub fn complete(&self, exchange: SymmetricMatrix, tally: &Tally) -> FormFactors {
         let areas = self.mesh.patches.iter().map(|patch| patch.area).collect();
@@ -209,7 +228,7 @@ impl<'a> Estimation<'a> {
         };
         let groups = self.tiling.groups.iter();
         for group in groups.take_while(|group| group.tiles.start <= tile) {
-            self.against(tile, group, room, &mut tell);
+            self.against((tile, 0..patches.len()), group, room, &mut tell);
         }
         tally.add_classes(&classes);
     }

@@ -7,6 +7,7 @@ use crate::obstacles::Between;
 use crate::part::Part;
 use crate::tally::Sight;
 use crate::tiles::Group;
+use std::ops::Range;
 
 /// So many faces are listed between parts that will be looked at more closely, and at last.
 const FEW: usize = 64;
@@ -28,11 +29,11 @@ impl Told {
 }
 
 impl Estimation<'_> {
-    /// Estimates the exchange of the patches of a tile with those of a group; tells of those that
-    /// may not be zero: lane, index, and what is found out.
+    /// Estimates the exchange of some patches of a tile, by their lanes, with those of a group; tells
+    /// of those that may not be zero: lane, index, and what is found out.
     pub(crate) fn against(
         &self,
-        tile: usize,
+        (tile, lanes): (usize, Range<usize>),
         group: &Group,
         room: &mut Room,
         tell: &mut impl FnMut(usize, usize, Told),
@@ -58,7 +59,8 @@ impl Estimation<'_> {
             if let Method::Regular(regular) = &self.method {
                 regular.prepare([tile, other], &mut room.regular);
             }
-            for (lane, &i) in tiles[tile].patches.iter().enumerate() {
+            for lane in lanes.clone() {
+                let i = tiles[tile].patches[lane];
                 if let Some(between) = self.view(&between, [&self.parts[i], part_j], most) {
                     self.exchange((i, lane), other, &between, room, tell);
                 }

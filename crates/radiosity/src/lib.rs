@@ -48,7 +48,7 @@ pub use error::Error;
 pub use export::{cells, radiosity_table, reference_table};
 pub use factor_export::{By, FactorTable};
 pub use observer::{Observer, Silent, Stage};
-pub use pipeline::{FormFactorsMade, Pipeline, Solved};
+pub use pipeline::{FormFactorsMade, Pipeline, Preview, Solved};
 pub use rows::RowSummary;
 
 pub use radiosity_cache as cache;

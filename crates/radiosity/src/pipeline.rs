@@ -14,8 +14,10 @@ use radiosity_renderer::{self as renderer, Fields, Pictures};
 use radiosity_scene::{Material, Mode, Scene};
 
 mod factors;
+mod preview;
 mod solution;
 
+pub use preview::Preview;
 pub use solution::Solved;
 pub(crate) use solution::Start;
 

@@ -9,9 +9,10 @@
 //!
 //! It is linear in the emission, so it is solved for each light by itself, all in the same passes
 //! over the matrix, and a lamp that is dimmed afterwards needs no new solution
-//! ([`Solution::relit`]). Each method is one file: [`Method::GaussSeidel`], with over-relaxation,
+//! ([`relit`]). Each method is one file: [`Method::GaussSeidel`], with over-relaxation,
 //! and [`Method::ConjugateGradients`]; all share the pass
-//! ([`radiosity_matrix::SymmetricMatrix::sweep`]) and the report ([`Convergence`]).
+//! ([`radiosity_matrix::SymmetricMatrix::sweep`]) and the report ([`Convergence`]). [`Progressive`] gives a first picture before all form factors are
+//! known.
 //!
 //! This crate knows nothing of geometry, names or files: errors carry patch indices.
 
@@ -22,6 +23,7 @@ mod energy;
 mod gauss_seidel;
 mod power_iteration;
 mod problem;
+mod progressive;
 mod solution;
 mod solve;
 mod system;
@@ -33,7 +35,8 @@ pub use convergence::Convergence;
 pub use diagnosis::SolveError;
 pub use energy::Energy;
 pub use gauss_seidel::Relaxation;
-pub use solution::Solution;
+pub use progressive::Progressive;
+pub use solution::{Solution, relit};
 pub use solve::{Method, Params, solve};
 pub use system::System;
 

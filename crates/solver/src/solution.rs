@@ -12,28 +12,28 @@ pub struct Solution {
     pub report: Convergence,
 }
 
-impl Solution {
-    /// The radiosities with each light dimmed by a factor per channel: their sum, no matter how
-    /// the factors change.
-    ///
-    /// # Panics
-    ///
-    /// If there are not as many factors as lights.
-    pub fn relit(&self, dimming: &[Rgb]) -> Vec<[f32; 3]> {
-        assert_eq!(dimming.len(), self.lights.len(), "a factor for each light");
-        let patches = self.lights.first().map_or(0, Vec::len);
-        let mut sum = vec![[0.0; 3]; patches];
-        for (light, factor) in self.lights.iter().zip(dimming) {
-            let factor = factor.map(|channel| channel as f32);
-            for (sum, radiosity) in sum.iter_mut().zip(light) {
-                for c in 0..3 {
-                    sum[c] += factor[c] * radiosity[c];
-                }
+/// The radiosities of all lights together, each dimmed by a factor per channel: their sum, no matter
+/// how the factors change. None without lights.
+///
+/// # Panics
+///
+/// If there are not as many factors as lights.
+pub fn relit(lights: &[Vec<[f32; 3]>], dimming: &[Rgb]) -> Vec<[f32; 3]> {
+    assert_eq!(dimming.len(), lights.len(), "a factor for each light");
+    let patches = lights.first().map_or(0, Vec::len);
+    let mut sum = vec![[0.0; 3]; patches];
+    for (light, factor) in lights.iter().zip(dimming) {
+        let factor = factor.map(|channel| channel as f32);
+        for (sum, radiosity) in sum.iter_mut().zip(light) {
+            for c in 0..3 {
+                sum[c] += factor[c] * radiosity[c];
             }
         }
-        sum
     }
+    sum
+}
 
+impl Solution {
     /// The power balance with each light dimmed by a factor per channel.
     pub fn energy(&self, dimming: &[Rgb]) -> Energy {
         let lights = self.report.energies.iter().zip(dimming);

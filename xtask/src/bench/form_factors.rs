@@ -197,7 +197,7 @@ fn radiosities(scene: &Scene) -> Result<Vec<[f32; 3]>, Error> {
 }
 
 /// Of the squares of all channels.
-fn relative_error(found: &[[f32; 3]], truth: &[[f32; 3]]) -> f64 {
+pub(super) fn relative_error(found: &[[f32; 3]], truth: &[[f32; 3]]) -> f64 {
     let pairs = || found.as_flattened().iter().zip(truth.as_flattened());
     let squares = |error: fn(f64, f64) -> f64| -> f64 {
         pairs()

@@ -9,11 +9,12 @@ use super::form_factors;
 use super::inspect;
 use super::reference;
 use super::site::Site;
+use super::solver_args::SolveArgs;
 use super::terminal::{Terminal, tell};
 use crate::artifact::Sources;
 use crate::error::Error;
 use crate::export::radiosity_table;
-use crate::pipeline::{Pipeline, Solved};
+use crate::pipeline::Pipeline;
 use crate::report::{DisplayReport, Report};
 use radiosity_cache::{Store, replace_file_by};
 use radiosity_renderer::{Image, PictureFormat, Pictures, ToneMap, encode};
@@ -67,9 +68,8 @@ fn solve(args: &SolveCommand, site: &Site, sources: Sources) -> Result<(), Error
     with_threads(args.estimate.threads, || {
         let store = store(&args.estimate, site);
         let mut pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
-        args.solve.start(&mut pipeline)?;
         let mut report = Report::new(&scene, pipeline.mesh(), &terminal);
-        let radiosity = reported_solution(&pipeline, sources, &mut report)?.radiosity;
+        let radiosity = radiosity(&mut pipeline, &args.solve, sources, &mut report)?;
         if let Some(path) = &args.export {
             write(
                 path,
@@ -97,11 +97,10 @@ fn display(args: &DisplayCommand, site: &Site) -> Result<(), Error> {
     with_threads(args.estimate.threads, || {
         let store = store(&args.estimate, site);
         let mut pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
-        args.solve.start(&mut pipeline)?;
         let mut report = Report::new(&scene, pipeline.mesh(), &terminal);
-        let solved = reported_solution(&pipeline, Sources::Cached, &mut report)?;
+        let radiosity = radiosity(&mut pipeline, &args.solve, Sources::Cached, &mut report)?;
         let start = Instant::now();
-        let pictures = pipeline.pictures(&solved.radiosity)?;
+        let pictures = pipeline.pictures(&radiosity)?;
         let outputs = save(&pictures, &scene, &args.display, folder)?;
         report.display(DisplayReport {
             seconds: start.elapsed().as_secs_f64(),
@@ -113,17 +112,25 @@ fn display(args: &DisplayCommand, site: &Site) -> Result<(), Error> {
     })
 }
 
-/// The solution, with each stage reported as soon as it is done.
-fn reported_solution(
-    pipeline: &Pipeline<'_>,
+/// The radiosities, with each stage reported as soon as it is done.
+fn radiosity(
+    pipeline: &mut Pipeline<'_>,
+    args: &SolveArgs,
     sources: Sources,
     report: &mut Report<'_>,
-) -> Result<Solved, Error> {
+) -> Result<Vec<[f32; 3]>, Error> {
+    if let Some(percent) = args.preview {
+        let start = Instant::now();
+        let preview = pipeline.preview(percent / 100.0)?;
+        report.preview(&preview, start.elapsed());
+        return Ok(preview.radiosity);
+    }
+    args.start(pipeline)?;
     let solved = pipeline.solution_after(sources, &mut |origin, rows| {
         report.form_factors(origin, rows, pipeline);
     })?;
     report.solution(&solved);
-    Ok(solved)
+    Ok(solved.radiosity)
 }
 
 pub(super) fn store(args: &EstimateArgs, site: &Site) -> Option<Store> {

@@ -1,7 +1,7 @@
 //! How to solve, on the command line.
 
 use super::choices::SolverArg;
-use super::parse::{parse_relaxation, parse_tolerance};
+use super::parse::{parse_percent, parse_relaxation, parse_tolerance};
 use crate::error::Error;
 use crate::pipeline::Pipeline;
 use clap::Args;
@@ -28,6 +28,10 @@ pub struct SolveArgs {
     /// colour or a lamp has changed a little
     #[arg(long, value_name = "FILE.bin")]
     pub start_from: Option<PathBuf>,
+    /// Do not wait: so many percent of the form factors, where most light leaves from, and an even
+    /// glow for the rest of it [default: 5]
+    #[arg(long, value_name = "PERCENT", num_args = 0..=1, default_missing_value = "5", value_parser = parse_percent, conflicts_with = "start_from")]
+    pub preview: Option<f64>,
 }
 
 impl SolveArgs {

@@ -107,21 +107,23 @@ impl Pipeline<'_> {
             on_form_factors(&untouched, &rows);
             untouched
         });
-        let dimming = settings::dimming(self.scene);
-        let dark = || vec![[0.0; 3]; self.mesh.patches.len()];
         Ok(Solved {
-            radiosity: if dimming.is_empty() {
-                dark()
-            } else {
-                solution.relit(&dimming)
-            },
-            energy: solution.energy(&dimming),
+            radiosity: self.dimmed(&solution.lights),
+            energy: solution.energy(&settings::dimming(self.scene)),
             solution,
             origin,
             rows,
             form_factors,
             start_passes: self.start.as_ref().map(|start| start.passes),
         })
+    }
+
+    /// The radiosities of the lights, as bright as the scene has them.
+    pub(super) fn dimmed(&self, lights: &[Vec<[f32; 3]>]) -> Vec<[f32; 3]> {
+        let mut sum = solver::relit(lights, &settings::dimming(self.scene));
+        // It is dark where there are no lights.
+        sum.resize(self.mesh.patches.len(), [0.0; 3]);
+        sum
     }
 
     fn light_names(&self) -> Vec<String> {

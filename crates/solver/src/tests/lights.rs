@@ -15,7 +15,7 @@ fn two_lights() -> Case {
 fn relit_is_solved_anew() {
     let case = two_lights();
     let dimming = [[0.3, 0.2, 1.0], [7.0, 0.0, 2.0]];
-    let relit = case.solve(&Params::default()).relit(&dimming);
+    let relit = relit(&case.solve(&Params::default()).lights, &dimming);
     let mut dimmed = two_lights();
     let lights = case.lights.iter().zip(&dimming);
     dimmed.lights = vec![
@@ -85,7 +85,7 @@ fn no_light_is_dark() {
     for method in METHODS {
         let solution = case.solve(&with(method));
         assert!(solution.report.converged && solution.lights.is_empty());
-        assert!(solution.relit(&[]).is_empty());
+        assert!(relit(&solution.lights, &[]).is_empty());
     }
 }
 

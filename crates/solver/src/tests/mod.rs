@@ -3,6 +3,7 @@
 mod iterates;
 mod lights;
 mod methods;
+mod progressive;
 mod trouble;
 
 use crate::*;
