@@ -36,6 +36,7 @@ mod job;
 mod lines;
 mod observer;
 mod pipeline;
+mod plot;
 mod prediction;
 mod report;
 mod resources;

@@ -4,7 +4,7 @@ use super::choices::{ByArg, FilterArg, FormatArg, ModeArg};
 use super::light_args::LightArgs;
 use super::parse::{
     parse_counts, parse_csv_path, parse_difference_path, parse_matrix_path, parse_positive,
-    parse_row_tolerance, parse_size, parse_threshold,
+    parse_row_tolerance, parse_size, parse_svg_path, parse_threshold,
 };
 use super::solver_args::SolveArgs;
 use clap::{Args, Subcommand};
@@ -185,6 +185,9 @@ pub struct SolveCommand {
     /// in .csv
     #[arg(long, value_name = "FILE.csv", value_parser = parse_csv_path)]
     pub export: Option<PathBuf>,
+    /// Solve by every method, and draw how the residual falls with each pass; the path ends in .svg
+    #[arg(long, value_name = "FILE.svg", value_parser = parse_svg_path, conflicts_with_all = ["no_cache", "preview"])]
+    pub plot: Option<PathBuf>,
 }
 
 /// `render` and `display`.

@@ -49,6 +49,10 @@ pub(super) fn parse_csv_path(text: &str) -> Result<PathBuf, String> {
     parse_path(text, &["csv"])
 }
 
+pub(super) fn parse_svg_path(text: &str) -> Result<PathBuf, String> {
+    parse_path(text, &["svg"])
+}
+
 pub(super) fn parse_matrix_path(text: &str) -> Result<PathBuf, String> {
     parse_path(text, &["npy", "csv"])
 }

@@ -15,6 +15,7 @@ use crate::artifact::Sources;
 use crate::error::Error;
 use crate::export::radiosity_table;
 use crate::pipeline::Pipeline;
+use crate::plot::convergence_plot;
 use crate::report::{DisplayReport, Report};
 use radiosity_cache::{Store, replace_file_by};
 use radiosity_renderer::{Image, PictureFormat, Pictures, ToneMap, encode};
@@ -61,7 +62,7 @@ fn solve(args: &SolveCommand, site: &Site, sources: Sources) -> Result<(), Error
     args.estimate.apply(&mut scene);
     args.solve.apply(&mut scene);
     args.lights.apply(&mut scene)?;
-    if let Some(path) = &args.export {
+    for path in args.export.iter().chain(&args.plot) {
         check_folder_of(path)?;
     }
     let terminal = Terminal::new(args.estimate.json);
@@ -76,6 +77,11 @@ fn solve(args: &SolveCommand, site: &Site, sources: Sources) -> Result<(), Error
                 &radiosity_table(&scene, pipeline.mesh(), &radiosity).to_csv(),
             )?;
             report.output("export", path);
+        }
+        if let Some(path) = &args.plot {
+            let made = pipeline.form_factors(Sources::Cached)?.form_factors;
+            write(path, convergence_plot(&pipeline, &made)?.as_bytes())?;
+            report.output("plot", path);
         }
         report.finish()
     })

@@ -9,7 +9,7 @@ use crate::rows::RowSummary;
 use crate::settings;
 use radiosity_cache::{Id, Key, Miss, Store, open};
 use radiosity_form_factors::FormFactors;
-use radiosity_solver::{self as solver, Energy, Solution, System};
+use radiosity_solver::{self as solver, Energy, Method, Solution, System};
 use std::path::Path;
 use std::time::Instant;
 
@@ -159,6 +159,12 @@ impl Pipeline<'_> {
 
     /// Stage 3 alone, with these form factors and without the cache.
     pub fn solve(&self, form_factors: &FormFactors) -> Result<Solution, Error> {
+        let params = settings::solver_params(self.scene);
+        self.solve_by(params.method, form_factors)
+    }
+
+    /// [`Pipeline::solve`] by a method of the caller's.
+    pub fn solve_by(&self, method: Method, form_factors: &FormFactors) -> Result<Solution, Error> {
         let share = |share: fn(&radiosity_form_factors::RowFacts) -> f64| -> Vec<f64> {
             form_factors.rows.iter().map(share).collect()
         };
@@ -171,7 +177,10 @@ impl Pipeline<'_> {
             background: &share(|row| row.background),
         };
         let start = self.start.as_ref().map(|start| self.start_of(start));
-        let params = settings::solver_params(self.scene);
+        let params = solver::Params {
+            method,
+            ..settings::solver_params(self.scene)
+        };
         self.observer.begin(Stage::Solve, SOLVER_STEPS);
         let mut reached = 0;
         let solution = solver::solve(&system, start.as_deref(), &params, &mut |residual| {

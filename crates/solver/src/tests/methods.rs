@@ -177,3 +177,22 @@ fn the_automatic_factor_is_the_best_in_a_uniform_room() {
         assert!(report.residuals.len() < sweeps(1.0));
     }
 }
+
+/// Large enough for several threads in a pass; every sum of a method is taken in one order.
+#[test]
+fn threads_have_no_part_in_a_solution() {
+    let size = 4300;
+    let mut case = Case::uniform_enclosure(size, [0.0; 3], [0.9, 0.7, 0.5]);
+    case.lights[0][4000] = [1.0, 2.0, 3.0];
+    case.lights.push(vec![[0.1; 3]; size]);
+    for method in METHODS {
+        let run = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            pool.unwrap().install(|| case.solve(&with(method)))
+        };
+        let expected = run(1);
+        for threads in [2, 5] {
+            assert!(run(threads) == expected, "{method:?}, {threads} threads");
+        }
+    }
+}
