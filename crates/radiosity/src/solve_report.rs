@@ -18,9 +18,10 @@ pub(crate) struct SolveReport {
     relaxation: Option<f64>,
     /// Passes over the matrix.
     sweeps: usize,
-    /// Of the solution that it started from, if there was one.
+    /// How many the solution was worth that it started from, if it did: so many that had taken until
+    /// its residual was what this one started with.
     #[serde(skip_serializing_if = "Option::is_none")]
-    start_sweeps: Option<usize>,
+    start_worth_sweeps: Option<usize>,
     /// True relative residual of the solution, of the worst light.
     residual: f64,
     /// Estimated relative error, of the worst light; null after too few passes.
@@ -56,7 +57,7 @@ impl SolveReport {
             },
             relaxation: report.relaxation,
             sweeps: report.residuals.len(),
-            start_sweeps: solved.start_passes,
+            start_worth_sweeps: solved.start_worth,
             residual: report.residual,
             error: report.error,
             converged: report.converged,
@@ -82,7 +83,7 @@ impl EnergyReport {
 /// The same for people.
 pub(crate) fn solution_lines(solved: &Solved) -> Vec<String> {
     let report = &solved.solution.report;
-    let mut lines = vec![course_line(report, solved.start_passes)];
+    let mut lines = vec![course_line(report, solved.start_worth)];
     lines.extend(energy_line(&solved.energy));
     if !report.converged {
         lines.push(warning(report));
@@ -91,7 +92,7 @@ pub(crate) fn solution_lines(solved: &Solved) -> Vec<String> {
 }
 
 /// How it was reached.
-fn course_line(report: &Convergence, start_passes: Option<usize>) -> String {
+fn course_line(report: &Convergence, start_worth: Option<usize>) -> String {
     let passes = report.residuals.len();
     let name = match report.method {
         Method::GaussSeidel(_) => "sweep",
@@ -100,17 +101,17 @@ fn course_line(report: &Convergence, start_passes: Option<usize>) -> String {
     let plural = if passes == 1 { "" } else { "s" };
     let method = match (report.method, report.relaxation) {
         (Method::ConjugateGradients, _) => " of conjugate gradients".to_owned(),
-        (_, Some(factor)) if factor != 1.0 => format!(", overdone by {factor:.2},"),
+        (_, Some(factor)) if factor != 1.0 => format!(" overdone by {factor:.2}"),
         _ => String::new(),
     };
-    let saved = start_passes.map_or(String::new(), |before| {
-        format!(" ({before} made the solution that they start from)")
+    let start = start_worth.map_or(String::new(), |worth| {
+        format!("; the start saved what {worth} had done before")
     });
     let error = report.error.map_or(String::new(), |error| {
         format!(", an estimated {error:.0e} from exact")
     });
     let residual = report.residual;
-    format!("{passes} {name}{plural}{method}{saved} to residual {residual:.1e}{error}")
+    format!("{passes} {name}{plural}{method} to residual {residual:.1e}{error}{start}")
 }
 
 /// Where the power goes, over all channels.

@@ -109,7 +109,7 @@ fn file_in(place: &Place, folder: &str, stage: &str) -> String {
 #[test]
 fn a_solution_starts_from_another() {
     let place = Place::new();
-    let cold = place.json("solve room.toml --cache c");
+    place.json("solve room.toml --cache c");
     let file = file_in(&place, "c", "solution");
     place.write(
         "room.toml",
@@ -125,7 +125,8 @@ fn a_solution_starts_from_another() {
         sweeps(&fresh)
     );
     let stages = &started["stages"]["solve"];
-    assert_eq!(stages["start_sweeps"], cold["stages"]["solve"]["sweeps"]);
+    let worth = stages["start_worth_sweeps"].as_u64().unwrap();
+    assert!((2..=sweeps(&fresh)).contains(&worth), "{worth}");
     // Another start is another solution, which is kept beside.
     let again = place.json("render room.toml --cache d");
     assert_eq!(

@@ -21,7 +21,7 @@
 
 use crate::Rgb;
 use crate::convergence::Progress;
-use crate::problem::{Problem, Values, worst};
+use crate::problem::{Problem, Values, joined, worst};
 use crate::solve::Iteration;
 use radiosity_matrix::Triple;
 
@@ -54,7 +54,7 @@ impl<'a> ConjugateGradients<'a> {
         mut x: Values<f32>,
         tolerance: f64,
     ) -> ConjugateGradients<'a> {
-        let sums = join(problem.sums(&mut x));
+        let sums = all_joined(&problem.sums(&mut x));
         let mut iteration = ConjugateGradients {
             problem,
             tolerance,
@@ -121,7 +121,7 @@ impl<'a> ConjugateGradients<'a> {
     fn step(&mut self) {
         let lights = self.problem.lights();
         let mut p = std::mem::take(&mut self.p);
-        let sums = join(self.problem.sums(&mut p));
+        let sums = all_joined(&self.problem.sums(&mut p));
         let products = self.reduced(|k, c, gain| {
             let p = f64::from(p[k][c]);
             p * (p / gain - sums[k][c])
@@ -179,7 +179,7 @@ impl<'a> ConjugateGradients<'a> {
     /// The residual of the values in single precision.
     fn verify(&mut self) -> f64 {
         let mut x: Values<f32> = self.x.iter().map(|x| x.map(|x| x as f32)).collect();
-        let sums = join(self.problem.sums(&mut x));
+        let sums = all_joined(&self.problem.sums(&mut x));
         let residual = |k: usize| self.problem.residual_at(k, &sums[k], &x[k]);
         let found = self.problem.relative(residual);
         self.verified = Some((x, sums));
@@ -188,6 +188,10 @@ impl<'a> ConjugateGradients<'a> {
 }
 
 impl Iteration for ConjugateGradients<'_> {
+    fn first_residual(&self) -> f64 {
+        self.problem.relative(|k| self.z[k])
+    }
+
     fn advance(&mut self) -> Progress {
         if let Some((x, sums)) = self.verified.take() {
             self.restart(&x, &sums);
@@ -220,10 +224,9 @@ impl Iteration for ConjugateGradients<'_> {
     }
 }
 
-fn join([above, below]: [Values<f64>; 2]) -> Values<f64> {
-    let sum =
-        |(above, below): (Triple<f64>, Triple<f64>)| std::array::from_fn(|c| above[c] + below[c]);
-    above.into_iter().zip(below).map(sum).collect()
+/// The sums, both parts together.
+fn all_joined(sums: &[Values<f64>; 2]) -> Values<f64> {
+    (0..sums[0].len()).map(|k| joined(sums, k)).collect()
 }
 
 /// Of the tridiagonal matrix that the steps make (Saad 2003, eq. 6.103), by Sturm sequences: the

@@ -16,6 +16,8 @@ pub struct Convergence {
     pub residual: f64,
     /// The residual after each pass over the matrix, as the method knows it.
     pub residuals: Vec<f64>,
+    /// The residual of the radiosities that it started from.
+    pub first_residual: f64,
     /// An estimate of `||B - exact B|| / ||B||`, from the rate at which changes shrank; none after
     /// too few passes.
     pub error: Option<f64>,

@@ -26,7 +26,7 @@
 //! which it does not come. Rooms turn out to be alike enough.
 
 use crate::convergence::Progress;
-use crate::problem::{Problem, Values, worst};
+use crate::problem::{Problem, Values, joined, worst};
 use crate::solve::Iteration;
 use radiosity_matrix::Triple;
 use serde::{Deserialize, Serialize};
@@ -47,9 +47,8 @@ const LOOKS: [usize; 2] = [3, 8];
 pub(crate) struct GaussSeidel<'a> {
     problem: &'a Problem<'a>,
     x: Values<f32>,
-    /// `sum_{j<i} S_ij x_j` and `sum_{j>i} S_ij x_j`.
-    above: Values<f64>,
-    below: Values<f64>,
+    /// `sum_{j<i} S_ij x_j`, and `sum_{j>i} S_ij x_j`.
+    sums: [Values<f64>; 2],
     factor: f64,
     is_automatic: bool,
     /// The norm of each sweep's change, relative to that of the values.
@@ -62,7 +61,7 @@ impl<'a> GaussSeidel<'a> {
         mut x: Values<f32>,
         relaxation: Relaxation,
     ) -> GaussSeidel<'a> {
-        let [above, below] = problem.sums(&mut x);
+        let sums = problem.sums(&mut x);
         let (factor, is_automatic) = match relaxation {
             Relaxation::Factor(factor) => (factor, false),
             Relaxation::Automatic => (1.0, true),
@@ -70,8 +69,7 @@ impl<'a> GaussSeidel<'a> {
         GaussSeidel {
             problem,
             x,
-            above,
-            below,
+            sums,
             factor,
             is_automatic,
             changes: Vec::new(),
@@ -82,7 +80,7 @@ impl<'a> GaussSeidel<'a> {
     fn sweep(&mut self) {
         let problem = self.problem;
         let (lights, factor) = (problem.lights(), self.factor);
-        let (above, below) = (&mut self.above, &self.below);
+        let [above, below] = &mut self.sums;
         let mut norms = vec![(0.0, 0.0); lights];
         let mut update = |i: usize, sums: &[Triple<f64>], x: &mut [Triple<f32>]| {
             let first = i * lights;
@@ -100,9 +98,18 @@ impl<'a> GaussSeidel<'a> {
                 }
             }
         };
-        self.below = problem.exchange.sweep(&mut self.x, lights, &mut update);
+        let new = problem.exchange.sweep(&mut self.x, lights, &mut update);
+        self.sums[1] = new;
         let roots = norms.into_iter().map(|(a, b)| (a.sqrt(), b.sqrt()));
         self.changes.push(worst(roots));
+    }
+
+    fn residual(&self) -> f64 {
+        let at = |k: usize| {
+            self.problem
+                .residual_at(k, &joined(&self.sums, k), &self.x[k])
+        };
+        self.problem.relative(at)
     }
 
     /// The ratio of a change to the one before, over the last two of them.
@@ -146,6 +153,10 @@ fn best_factor(reflectance: f64) -> f64 {
 }
 
 impl Iteration for GaussSeidel<'_> {
+    fn first_residual(&self) -> f64 {
+        self.residual()
+    }
+
     fn advance(&mut self) -> Progress {
         self.sweep();
         let change = self.changes.last().copied().unwrap_or(0.0);
@@ -153,12 +164,8 @@ impl Iteration for GaussSeidel<'_> {
         let rest = |rate: f64| change * rate / (1.0 - rate);
         let error = self.rate().filter(|&rate| rate < 1.0).map(rest);
         self.choose_factor();
-        let residual = |k: usize| {
-            let sum = std::array::from_fn(|c| self.above[k][c] + self.below[k][c]);
-            self.problem.residual_at(k, &sum, &self.x[k])
-        };
         Progress {
-            residual: self.problem.relative(residual),
+            residual: self.residual(),
             error,
             stalled: change == 0.0,
             suspicious: false,
@@ -170,10 +177,7 @@ impl Iteration for GaussSeidel<'_> {
     }
 
     fn finish(self: Box<Self>) -> (Values<f32>, Values<f64>) {
-        let sum = |(above, below): (&Triple<f64>, &Triple<f64>)| {
-            std::array::from_fn(|c| above[c] + below[c])
-        };
-        let sums = self.above.iter().zip(&self.below).map(sum).collect();
+        let sums = (0..self.x.len()).map(|k| joined(&self.sums, k)).collect();
         (self.x, sums)
     }
 }

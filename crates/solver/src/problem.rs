@@ -135,6 +135,11 @@ impl<'a> Problem<'a> {
     }
 }
 
+/// A sum of which both parts are known.
+pub(crate) fn joined([above, below]: &[Values<f64>; 2], k: usize) -> Rgb {
+    std::array::from_fn(|c| above[k][c] + below[k][c])
+}
+
 /// The largest of some ratios, of which those to nothing do not count. What is not a number is the
 /// worst.
 pub(crate) fn worst(ratios: impl Iterator<Item = (f64, f64)>) -> f64 {

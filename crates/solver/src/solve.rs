@@ -42,6 +42,9 @@ impl Default for Params {
 
 /// A method on its way.
 pub(crate) trait Iteration {
+    /// The residual of the values that it starts from.
+    fn first_residual(&self) -> f64;
+
     /// Takes one pass over the matrix (conjugate gradients take one more to be sure of the last).
     fn advance(&mut self) -> Progress;
 
@@ -77,6 +80,7 @@ pub fn solve(
             Box::new(ConjugateGradients::new(&problem, x, params.tolerance))
         }
     };
+    let first_residual = iteration.first_residual();
     let mut residuals: Vec<f64> = Vec::new();
     let (mut converged, mut error) = (problem.is_dark(), None);
     while !converged && residuals.len() < params.max_passes as usize {
@@ -104,6 +108,7 @@ pub fn solve(
             method: params.method,
             converged,
             residual,
+            first_residual,
             residuals,
             error,
             relaxation,

@@ -9,7 +9,7 @@ use crate::rows::RowSummary;
 use crate::settings;
 use radiosity_cache::{Id, Key, Miss, Store, open};
 use radiosity_form_factors::FormFactors;
-use radiosity_solver::{self as solver, Energy, Method, Solution, System};
+use radiosity_solver::{self as solver, Convergence, Energy, Method, Solution, System};
 use std::path::Path;
 use std::time::Instant;
 
@@ -28,14 +28,16 @@ pub struct Solved {
     pub rows: RowSummary,
     /// Where those came from.
     pub form_factors: Origin,
-    /// How many passes the solution took that this one started from.
-    pub start_passes: Option<usize>,
+    /// How many passes the other solution was worth that this one started from: so many it had taken
+    /// itself until its residual was what this one started with.
+    pub start_worth: Option<usize>,
 }
 
 /// Another solution, to start from.
 pub(crate) struct Start {
     key: Key,
-    passes: usize,
+    /// After each pass that it took.
+    residuals: Vec<f64>,
     names: Vec<String>,
     lights: Vec<Vec<[f32; 3]>>,
 }
@@ -110,11 +112,14 @@ impl Pipeline<'_> {
         Ok(Solved {
             radiosity: self.dimmed(&solution.lights),
             energy: solution.energy(&settings::dimming(self.scene)),
+            start_worth: self
+                .start
+                .as_ref()
+                .map(|start| start.worth(&solution.report)),
             solution,
             origin,
             rows,
             form_factors,
-            start_passes: self.start.as_ref().map(|start| start.passes),
         })
     }
 
@@ -236,10 +241,16 @@ impl Start {
         let lights = by_light(values.as_ref(), facts.lights.len());
         Ok(Start {
             key,
-            passes: facts.report.residuals.len(),
+            residuals: facts.report.residuals,
             names: facts.lights,
             lights: lights.ok_or_else(|| unusable(&Miss::Header))?,
         })
+    }
+
+    fn worth(&self, report: &Convergence) -> usize {
+        let is_worse = |residual: &&f64| **residual > report.first_residual;
+        let before = self.residuals.iter().take_while(is_worse).count();
+        (before + 1).min(self.residuals.len())
     }
 
     fn patches(&self) -> usize {
