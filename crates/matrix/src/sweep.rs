@@ -46,6 +46,8 @@ impl SymmetricMatrix {
     /// The same bits for any number of threads and any instruction set. Over up to 512 numbers,
     /// sums have the rounding errors of single precision.
     ///
+    /// `update` must not wait for other threads of the pool: they may be waiting for it.
+    ///
     /// # Panics
     ///
     /// If `x` does not hold so many triples for each row.

@@ -37,3 +37,30 @@ fn percentages_are_checked() {
         assert!(code == 2 && error.contains("percentage"), "{error}");
     }
 }
+
+/// In a closed white box light is never absorbed, and shooting it never comes to an end by itself.
+#[test]
+fn light_that_does_not_die_away_is_given_up() {
+    let place = Place::new();
+    let mut scene = "[materials.white]\nreflectance = 1\nemission = 1\n".to_owned();
+    for (k, [corner, a, b]) in [
+        ["[0, 0, 0]", "[0, 1, 0]", "[1, 0, 0]"],
+        ["[0, 0, 1]", "[1, 0, 0]", "[0, 1, 0]"],
+        ["[0, 0, 0]", "[0, 0, 1]", "[0, 1, 0]"],
+        ["[1, 0, 0]", "[0, 1, 0]", "[0, 0, 1]"],
+        ["[0, 0, 0]", "[1, 0, 0]", "[0, 0, 1]"],
+        ["[0, 1, 0]", "[0, 0, 1]", "[1, 0, 0]"],
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        scene.push_str(&format!(
+            "[[surfaces]]\nname = \"{k}\"\nmaterial = \"white\"\ndivisions = 4\n\
+             parallelogram = {{ corner = {corner}, edge_a = {b}, edge_b = {a} }}\n"
+        ));
+    }
+    place.write("white.toml", &scene);
+    let report = place.json("solve white.toml --mode regular --no-cache --preview 100");
+    let unshot = report["stages"]["preview"]["unshot"].as_f64().unwrap();
+    assert!(unshot > 0.5, "{unshot}");
+}

@@ -30,7 +30,7 @@ impl World {
             FaceLight {
                 normal: face.normal,
                 tangents: face.normal.any_orthonormal_pair().into(),
-                emission: material.emission,
+                emission: scene.dimmed_emission(material),
                 reflectance: material.reflectance,
             }
         };

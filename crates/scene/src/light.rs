@@ -33,8 +33,8 @@ impl Light {
     }
 }
 
-/// Largest factor: with the largest emission, still far from what numbers can be.
-pub const MOST_DIMMING: f64 = 1e6;
+/// Largest factor: with the largest emission and tint, still what numbers can be.
+pub const MOST_DIMMING: f64 = 1e3;
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -58,7 +58,7 @@ pub(crate) fn lights(
         else {
             return Err(source.error(name.span(), &no_such_light(name.get_ref(), &lights)));
         };
-        let range = "between 0 and 1e6";
+        let range = "between 0 and 1000";
         if let Some(dim) = &table.dim {
             let what = format!("the `dim` of light `{}`", light.name);
             let holds = |dim: &f64| (0.0..=MOST_DIMMING).contains(dim);

@@ -47,6 +47,13 @@ impl Scene {
         &self.materials[materials[input_face as usize]]
     }
 
+    /// What a material emits with its light as bright as the scene has it.
+    pub fn dimmed_emission(&self, material: &Material) -> [f64; 3] {
+        let light = material.light.and_then(|light| self.lights.get(light));
+        let dimming = light.map_or([1.0; 3], Light::dimming);
+        std::array::from_fn(|c| dimming[c] * material.emission[c])
+    }
+
     /// The surfaces without the divisions that the scene gives them.
     pub fn undivided(&self) -> Vec<geometry::Surface> {
         self.geometry

@@ -43,6 +43,14 @@ pub(crate) fn is_growing(residuals: &[f64]) -> bool {
     residuals.len().is_multiple_of(SUSPICIOUS_GROWTH) && grew
 }
 
+/// Whether the residual has become clearly less over the second half of the passes: a long way from
+/// a system without a solution, which takes long to tell.
+pub(crate) fn is_falling(residuals: &[f64]) -> bool {
+    let middle = residuals.get(residuals.len() / 2);
+    let ends = middle.zip(residuals.last());
+    ends.is_some_and(|(middle, last)| *last < 0.9 * middle)
+}
+
 pub(crate) fn check_spectral_radius(system: &System<'_>) -> Result<(), SolveError> {
     let spectral_radius = spectral_radius(system);
     if spectral_radius < 1.0 {

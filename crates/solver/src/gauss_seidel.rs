@@ -50,6 +50,8 @@ pub(crate) struct GaussSeidel<'a> {
     /// `sum_{j<i} S_ij x_j`, and `sum_{j>i} S_ij x_j`.
     sums: [Values<f64>; 2],
     factor: f64,
+    /// That of the last sweep.
+    used: f64,
     is_automatic: bool,
     /// The norm of each sweep's change, relative to that of the values.
     changes: Vec<f64>,
@@ -71,6 +73,7 @@ impl<'a> GaussSeidel<'a> {
             x,
             sums,
             factor,
+            used: factor,
             is_automatic,
             changes: Vec::new(),
         }
@@ -79,6 +82,7 @@ impl<'a> GaussSeidel<'a> {
     /// Goes through all rows; keeps the norm of the change.
     fn sweep(&mut self) {
         let problem = self.problem;
+        self.used = self.factor;
         let (lights, factor) = (problem.lights(), self.factor);
         let [above, below] = &mut self.sums;
         let mut norms = vec![(0.0, 0.0); lights];
@@ -173,7 +177,7 @@ impl Iteration for GaussSeidel<'_> {
     }
 
     fn relaxation(&self) -> Option<f64> {
-        Some(self.factor)
+        Some(self.used)
     }
 
     fn finish(self: Box<Self>) -> (Values<f32>, Values<f64>) {

@@ -87,12 +87,18 @@ impl<'a> Problem<'a> {
     /// Radiosities in W/m^2, light by light, as the methods see them.
     pub(crate) fn of_lights(&self, lights: &[Vec<Triple<f32>>]) -> Values<f32> {
         assert_eq!(lights.len(), self.lights(), "radiosities of each light");
-        let in_units = |b: &Triple<f32>, unit: f64| b.map(|b| (f64::from(b) / unit) as f32);
-        let at = |i: usize| {
-            let lights = lights.iter().zip(&self.units);
-            lights.map(move |(light, &unit)| in_units(&light[i], unit))
+        let at = |(k, emission): (usize, &Triple<f64>)| -> Triple<f32> {
+            let (i, light) = (k / self.lights(), k % self.lights());
+            let gain = &self.gain[i];
+            std::array::from_fn(|c| {
+                let start = (f64::from(lights[light][i][c]) / self.units[light]) as f32;
+                // Dark lights stay dark, black patches are known, and the other solution may have
+                // been in units out of reach.
+                let is_usable = self.norms[light] > 0.0 && gain[c] > 0.0 && start.is_finite();
+                if is_usable { start } else { emission[c] as f32 }
+            })
         };
-        (0..self.areas.len()).flat_map(at).collect()
+        self.emission.iter().enumerate().map(at).collect()
     }
 
     /// The same the other way round.
@@ -145,7 +151,7 @@ pub(crate) fn joined([above, below]: &[Values<f64>; 2], k: usize) -> Rgb {
 pub(crate) fn worst(ratios: impl Iterator<Item = (f64, f64)>) -> f64 {
     let larger = |a: f64, b: f64| if a >= b || a.is_nan() { a } else { b };
     ratios
-        .filter(|&(_, whole)| whole > 0.0)
+        .filter(|&(_, whole)| whole != 0.0)
         .map(|(part, whole)| part / whole)
         .fold(0.0, larger)
 }

@@ -19,6 +19,8 @@ pub struct Progressive<'a> {
     unshot: Vec<Vec<Rgb>>,
     /// Of each light and channel, the power that it emits, or 1.
     emitted: Vec<Rgb>,
+    /// How many channels of lights emit.
+    lit: usize,
     /// Power that was shot, over all lights as shares of what they emit, and what of it arrived.
     shot: f64,
     arrived: f64,
@@ -43,6 +45,7 @@ impl<'a> Progressive<'a> {
             clusters,
             radiosity: lights.to_vec(),
             unshot: lights.to_vec(),
+            lit: lit(lights),
             emitted: lights.iter().map(power).collect(),
             shot: 0.0,
             arrived: 0.0,
@@ -94,8 +97,9 @@ impl<'a> Progressive<'a> {
 
     /// The share of the lights' power that waits to be shot: what the ambient term stands for.
     pub fn unshot(&self) -> f64 {
-        let all: f64 = (0..self.clusters.len()).map(|k| self.unshot_of(k)).sum();
-        all / (3 * self.unshot.len()).max(1) as f64
+        let all = (0..self.clusters.len()).map(|k| self.unshot_of(k));
+        let lit = self.lit.max(1) as f64;
+        all.fold(0.0, |sum, unshot| sum + unshot) / lit
     }
 
     /// The radiosities of each light, with the ambient term.
@@ -152,4 +156,12 @@ impl<'a> Progressive<'a> {
         };
         lights.map(of_light).sum()
     }
+}
+
+fn lit(lights: &[Vec<Rgb>]) -> usize {
+    let shines = |light: &Vec<Rgb>, c: usize| light.iter().any(|emission| emission[c] > 0.0);
+    let channels = lights
+        .iter()
+        .map(|light| (0..3).filter(|&c| shines(light, c)).count());
+    channels.sum()
 }

@@ -97,7 +97,7 @@ pub fn solve(
             break;
         }
     }
-    if !converged {
+    if !converged && !diagnosis::is_falling(&residuals) {
         diagnosis::check_spectral_radius(system)?;
     }
     let relaxation = iteration.relaxation();

@@ -123,6 +123,6 @@ fn of_light(text: &str) -> Result<(String, &str), String> {
 fn parse_dimming(text: &str) -> Result<f64, String> {
     match text.trim().parse() {
         Ok(factor) if (0.0..=MOST_DIMMING).contains(&factor) => Ok(factor),
-        _ => Err(format!("`{text}` is not a factor between 0 and 1e6")),
+        _ => Err(format!("`{text}` is not a factor between 0 and 1000")),
     }
 }

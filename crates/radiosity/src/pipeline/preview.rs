@@ -23,6 +23,8 @@ pub struct Preview {
 
 /// Rows that are estimated at a time, whatever the number of threads.
 const AT_A_TIME: usize = 16;
+/// Rounds without less light to shoot: it does not die away.
+const MOST_IN_VAIN: u32 = 64;
 /// Light that is worth no further row.
 const NEGLIGIBLE: f64 = 1e-4;
 
@@ -39,7 +41,9 @@ impl Pipeline<'_> {
         let mut rows: BTreeMap<usize, Vec<f32>> = BTreeMap::new();
         self.observer
             .begin(Stage::FormFactors, (most * areas.len()) as u64);
-        loop {
+        let mut least = light.unshot();
+        let mut in_vain = 0;
+        while in_vain < MOST_IN_VAIN {
             let brightest = light.brightest(AT_A_TIME);
             let new = brightest
                 .iter()
@@ -59,11 +63,15 @@ impl Pipeline<'_> {
             if known.is_empty() || is_spent || light.unshot() < NEGLIGIBLE {
                 break;
             }
+            // What does not fade, or is no number, never ends.
+            let fades = light.unshot() < least;
+            in_vain = if fades { 0 } else { in_vain + 1 };
+            least = least.min(light.unshot());
         }
         self.observer.end();
         Ok(Preview {
             radiosity: self.dimmed(&light.lights()),
-            share: (rows.len() * areas.len()) as f64 / pairs,
+            share: ((rows.len() * areas.len()) as f64 / pairs).min(1.0),
             unshot: light.unshot(),
         })
     }

@@ -51,11 +51,22 @@ impl Pipeline<'_> {
     pub fn start_from(&mut self, path: &Path) -> Result<(), Error> {
         let start = Start::read(path)?;
         let (found, patches) = (start.patches(), self.mesh.patches.len());
-        if found != patches {
+        let is_dark = start.lights.is_empty();
+        if found != patches && !is_dark {
             return Err(Error::Input(format!(
                 "{}: the solution is of {found} patches, and this scene has {patches}\n   \
                  = help: start from one of the same surfaces, cut in the same way",
                 path.display()
+            )));
+        }
+        let names = self.light_names();
+        if !is_dark && !start.names.iter().any(|name| names.contains(name)) {
+            return Err(Error::Input(format!(
+                "{}: the solution is of the lights `{}`, and this scene has `{}`\n   \
+                 = help: start from one with a light of the same name",
+                path.display(),
+                start.names.join("`, `"),
+                names.join("`, `"),
             )));
         }
         self.start = Some(start);
@@ -157,7 +168,10 @@ impl Pipeline<'_> {
             &self.lights,
             &self.reflectance,
             settings::solver_params(self.scene),
-            self.start.as_ref().map(|start| start.key.bytes()),
+            // With a start, names say which light starts from which.
+            self.start
+                .as_ref()
+                .map(|start| (start.key.bytes(), &start.names, self.light_names())),
         );
         self.id(SOLUTION, Key::of(SOLUTION, solver::VERSION, &inputs))
     }
@@ -249,8 +263,7 @@ impl Start {
 
     fn worth(&self, report: &Convergence) -> usize {
         let is_worse = |residual: &&f64| **residual > report.first_residual;
-        let before = self.residuals.iter().take_while(is_worse).count();
-        (before + 1).min(self.residuals.len())
+        self.residuals.iter().take_while(is_worse).count()
     }
 
     fn patches(&self) -> usize {

@@ -78,6 +78,26 @@ fn a_dark_light_is_dark() {
     assert_eq!(solution.lights[1], vec![[0.0; 3]; 30]);
 }
 
+/// A start that says otherwise, or that is out of reach, does no harm.
+#[test]
+fn starts_that_do_not_fit_are_not_believed() {
+    let mut case = two_lights();
+    let lit = case.solve(&Params::default());
+    case.lights[1] = vec![[0.0; 3]; 30];
+    for method in METHODS {
+        let start = Some(&lit.lights[..]);
+        let found = solve(&case.system(), start, &with(method), &mut |_| ()).unwrap();
+        assert_eq!(found.lights[1], vec![[0.0; 3]; 30]);
+        let bright = vec![vec![[1e30; 3]; 30]; 2];
+        let mut faint = two_lights();
+        for channel in faint.lights.iter_mut().flatten().flatten() {
+            *channel *= 1e-30;
+        }
+        let found = solve(&faint.system(), Some(&bright), &with(method), &mut |_| ()).unwrap();
+        assert!(found.report.converged, "{method:?}");
+    }
+}
+
 #[test]
 fn no_light_is_dark() {
     let mut case = two_lights();
