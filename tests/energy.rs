@@ -110,8 +110,8 @@ fn power_arrives_where_rays_do() {
             (found.backs, expected.backs),
             (found.background, expected.background),
         ] {
-            // A count of n rays scatters by its root; rows know what they see by 256 rays each,
-            // more together than are traced here. Four standard errors of both.
+            // A count of n rays scatters by its root. The rows' own rays, 256 from each patch, are
+            // granted as much again. Four standard errors of both.
             let noise = (expected * (1.0 - expected) / f64::from(RAYS)).sqrt();
             assert!(
                 (found - expected).abs() <= 4.0 * 2f64.sqrt() * noise + 1e-4,

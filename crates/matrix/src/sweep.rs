@@ -28,7 +28,7 @@ use radiosity_simd::InstructionSet;
 use std::ops::Range;
 use team::Team;
 
-/// Three vectors side by side at a row: the colours of a light.
+/// Three vectors side by side at a row.
 pub type Triple<T> = [T; 3];
 
 /// Is told a row, its sums, and its values, which it may change.

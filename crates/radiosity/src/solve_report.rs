@@ -105,7 +105,7 @@ fn course_line(report: &Convergence, start_worth: Option<usize>) -> String {
         _ => String::new(),
     };
     let start = start_worth.map_or(String::new(), |worth| {
-        format!("; the start saved what {worth} had done before")
+        format!("; the start was worth {worth}")
     });
     let error = report.error.map_or(String::new(), |error| {
         format!(", an estimated {error:.0e} from exact")

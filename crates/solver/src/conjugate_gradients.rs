@@ -73,16 +73,7 @@ impl<'a> ConjugateGradients<'a> {
     fn restart(&mut self, x: &[Triple<f32>], sums: &[Triple<f64>]) {
         let problem = self.problem;
         let active = |k: usize, c: usize| problem.gain[k / problem.lights()][c] > 0.0;
-        let start = |k: usize| -> Rgb {
-            std::array::from_fn(|c| {
-                if active(k, c) {
-                    f64::from(x[k][c])
-                } else {
-                    problem.emission[k][c]
-                }
-            })
-        };
-        self.x = (0..x.len()).map(start).collect();
+        self.x = x.iter().map(|x| x.map(f64::from)).collect();
         let residual = |k: usize| -> Rgb {
             let z = problem.residual_at(k, &sums[k], &x[k]);
             std::array::from_fn(|c| if active(k, c) { z[c] } else { 0.0 })

@@ -158,6 +158,7 @@ impl<'a> Progressive<'a> {
     }
 }
 
+/// How many channels of lights emit.
 fn lit(lights: &[Vec<Rgb>]) -> usize {
     let shines = |light: &Vec<Rgb>, c: usize| light.iter().any(|emission| emission[c] > 0.0);
     let channels = lights

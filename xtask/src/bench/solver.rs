@@ -6,8 +6,8 @@ use super::{Figure, Target, course};
 use radiosity::cache::Store;
 use radiosity::form_factors::FormFactors;
 use radiosity::matrix::SymmetricMatrix;
-use radiosity::scene::{Automatic, Mode, Relaxation, Scene, SolverMethod, load};
-use radiosity::solver::{Convergence, Method, relit};
+use radiosity::scene::{Mode, Scene, load};
+use radiosity::solver::{Convergence, Method, Relaxation, relit};
 use radiosity::{Error, Pipeline, Silent, Sources, cells};
 use rayon::prelude::*;
 use std::path::Path;
@@ -31,22 +31,10 @@ const MOST_PASSES: f64 = 12.0;
 const MOST_STEPS: f64 = 15.0;
 const COURSE: f64 = 60.0;
 
-const METHODS: [(&str, SolverMethod, Relaxation); 3] = [
-    (
-        "gauss_seidel",
-        SolverMethod::GaussSeidel,
-        Relaxation::Factor(1.0),
-    ),
-    (
-        "relaxed",
-        SolverMethod::GaussSeidel,
-        Relaxation::Named(Automatic::Auto),
-    ),
-    (
-        "conjugate_gradients",
-        SolverMethod::ConjugateGradients,
-        Relaxation::Factor(1.0),
-    ),
+const METHODS: [(&str, Method); 3] = [
+    ("gauss_seidel", Method::GaussSeidel(Relaxation::Factor(1.0))),
+    ("relaxed", Method::GaussSeidel(Relaxation::Automatic)),
+    ("conjugate_gradients", Method::ConjugateGradients),
 ];
 
 pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
@@ -175,15 +163,14 @@ fn sum(values: &[f32]) -> f32 {
 /// What each method takes to each residual.
 fn methods(mut scene: Scene, made: &FormFactors) -> Result<Vec<Figure>, Error> {
     let mut figures = Vec::new();
-    for (name, method, relaxation) in METHODS {
-        (scene.solver.method, scene.solver.relaxation) = (method, relaxation);
+    for (name, method) in METHODS {
         for residual in RESIDUALS {
             scene.solver.tolerance = residual;
             let pipeline = Pipeline::new(&scene, None, &Silent)?;
             let patches = pipeline.mesh().patches.len();
-            let report = pipeline.solve(made)?.report;
+            let report = pipeline.solve_by(method, made)?.report;
             let seconds = best(runs(patches).div_ceil(5), || {
-                std::hint::black_box(pipeline.solve(made).is_ok());
+                std::hint::black_box(pipeline.solve_by(method, made).is_ok());
             });
             let promise = match (&scene.name[..], name) {
                 ("cornell", "relaxed") if residual < 1e-5 => Some(MOST_PASSES),
