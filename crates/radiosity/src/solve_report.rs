@@ -28,6 +28,8 @@ pub(crate) struct SolveReport {
     error: Option<f64>,
     /// Whether the tolerance was reached.
     converged: bool,
+    /// Whether it was not because single precision allows no less.
+    stalled: bool,
     energy_balance: EnergyReport,
 }
 
@@ -61,6 +63,7 @@ impl SolveReport {
             residual: report.residual,
             error: report.error,
             converged: report.converged,
+            stalled: report.stalled,
             energy_balance: EnergyReport::of(&solved.energy),
         }
     }
@@ -131,13 +134,10 @@ fn energy_line(energy: &Energy) -> Option<String> {
 }
 
 fn warning(report: &Convergence) -> String {
-    // Radiosities in single precision have no better residual than this.
-    const FLOOR: f64 = 2e-7;
-    if report.residual < FLOOR {
-        "warning: the tolerance was not reached; numbers in single precision allow no less"
-            .to_owned()
-    } else {
-        "warning: the tolerance was not reached; allow more with --max-sweeps, or try --solver cg"
-            .to_owned()
-    }
+    let advice = match (report.stalled, report.method) {
+        (true, _) => "numbers in single precision allow no less",
+        (false, Method::GaussSeidel(_)) => "allow more with --max-sweeps, or try --solver cg",
+        (false, Method::ConjugateGradients) => "allow more with --max-sweeps",
+    };
+    format!("warning: the tolerance was not reached; {advice}")
 }

@@ -33,10 +33,14 @@ pub(crate) struct ConjugateGradients<'a> {
     p: Values<f32>,
     /// Per light.
     courses: Vec<[Course; 3]>,
-    /// Whether some `(p, M p)` was negative.
+    /// Per light, the smallest eigenvalue of `gain M` as far as it is known.
+    least: Vec<f64>,
+    /// Whether some `(p, M p)` of the last step was negative.
     is_indefinite: bool,
     /// The values in single precision with their products, once they are good enough.
     verified: Option<(Values<f32>, Values<f64>)>,
+    /// The best residual of those.
+    best: f64,
 }
 
 /// The course of one channel of one light.
@@ -62,8 +66,10 @@ impl<'a> ConjugateGradients<'a> {
             z: Values::new(),
             p: Values::new(),
             courses: Vec::new(),
+            least: vec![1.0; problem.lights()],
             is_indefinite: false,
             verified: None,
+            best: f64::INFINITY,
         };
         iteration.restart(&x, &sums);
         iteration
@@ -117,7 +123,7 @@ impl<'a> ConjugateGradients<'a> {
             let p = f64::from(p[k][c]);
             p * (p / gain - sums[k][c])
         });
-        self.is_indefinite |= products.iter().any(|&product| product < 0.0);
+        self.is_indefinite = products.iter().any(|&product| product < 0.0);
         let ratio = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
         let squares: Vec<f64> = self.channels().map(|course| course.square).collect();
         let alphas: Vec<f64> = squares
@@ -154,25 +160,28 @@ impl<'a> ConjugateGradients<'a> {
                 course.steps.push(step);
             }
         }
+        for (least, courses) in self.least.iter_mut().zip(&self.courses) {
+            *least = courses
+                .iter()
+                .map(smallest_eigenvalue)
+                .fold(*least, f64::min);
+        }
     }
 
-    /// The residual over the smallest eigenvalue, relative to the values.
-    fn error(&self) -> f64 {
-        let residuals = self.problem.norms_of(|k| self.z[k]);
+    /// A residual over the smallest eigenvalue, relative to the values.
+    fn error(&self, residual: impl Fn(usize) -> Rgb) -> f64 {
+        let residuals = self.problem.norms_of(residual);
         let values = self.problem.norms_of(|k| self.x[k]);
-        let lights = residuals.into_iter().zip(values).zip(&self.courses);
-        worst(lights.map(|((residual, value), courses)| {
-            let least = courses.iter().map(smallest_eigenvalue).fold(1.0, f64::min);
-            (residual / least, value)
-        }))
+        let lights = residuals.into_iter().zip(values).zip(&self.least);
+        worst(lights.map(|((residual, value), least)| (residual / least, value)))
     }
 
-    /// The residual of the values in single precision.
-    fn verify(&mut self) -> f64 {
+    /// The residual of the values in single precision, and their error.
+    fn verify(&mut self) -> (f64, f64) {
         let mut x: Values<f32> = self.x.iter().map(|x| x.map(|x| x as f32)).collect();
         let sums = all_joined(&self.problem.sums(&mut x));
         let residual = |k: usize| self.problem.residual_at(k, &sums[k], &x[k]);
-        let found = self.problem.relative(residual);
+        let found = (self.problem.relative(residual), self.error(residual));
         self.verified = Some((x, sums));
         found
     }
@@ -188,17 +197,21 @@ impl Iteration for ConjugateGradients<'_> {
             self.restart(&x, &sums);
         }
         self.step();
-        let error = Some(self.error());
         let known = self.problem.relative(|k| self.z[k]);
-        let residual = if known <= self.tolerance {
-            self.verify()
+        let mut stalled = false;
+        let (residual, error) = if known <= self.tolerance {
+            let (residual, error) = self.verify();
+            // What single precision has no room for does not come back by beginning anew.
+            stalled = residual > 0.5 * self.best;
+            self.best = residual.min(self.best);
+            (residual, error)
         } else {
-            known
+            (known, self.error(|k| self.z[k]))
         };
         Progress {
             residual,
-            error,
-            stalled: known == 0.0,
+            error: Some(error),
+            stalled,
             suspicious: self.is_indefinite,
         }
     }

@@ -11,6 +11,9 @@ pub struct Convergence {
     pub method: Method,
     /// Whether the tolerance was reached within the allowed passes.
     pub converged: bool,
+    /// Whether it was not, and no pass brought it nearer any more: single precision has no better
+    /// solution.
+    pub stalled: bool,
     /// The true residual `||E + rho F B - B|| / ||E||` of the radiosities as they are returned, in
     /// single precision. Its sums have rounding errors of some 1e-7.
     pub residual: f64,

@@ -43,6 +43,13 @@ pub enum Relaxation {
 /// After so many sweeps the rate is looked at: the first of them are plain, and few changes are
 /// not yet those that remain.
 const LOOKS: [usize; 2] = [3, 8];
+/// Relative changes below this tell no rate: values are rounded to 2^-24 of themselves at most, in
+/// each of two sweeps, and that scatters a norm that is four times as large by some percent.
+const ROUNDING: f64 = 4.0 * LOST;
+/// Sweeps without less of a change after which none is expected.
+const SWEEPS_AT_REST: usize = 4;
+/// Relative changes below this may change nothing.
+const LOST: f64 = 1.0 / (1 << 24) as f64;
 
 pub(crate) struct GaussSeidel<'a> {
     problem: &'a Problem<'a>,
@@ -55,6 +62,8 @@ pub(crate) struct GaussSeidel<'a> {
     is_automatic: bool,
     /// The norm of each sweep's change, relative to that of the values.
     changes: Vec<f64>,
+    /// The ratio of a change to the one before, as long as changes told it.
+    rate: Option<f64>,
 }
 
 impl<'a> GaussSeidel<'a> {
@@ -76,6 +85,7 @@ impl<'a> GaussSeidel<'a> {
             used: factor,
             is_automatic,
             changes: Vec::new(),
+            rate: None,
         }
     }
 
@@ -106,6 +116,7 @@ impl<'a> GaussSeidel<'a> {
         self.sums[1] = new;
         let roots = norms.into_iter().map(|(a, b)| (a.sqrt(), b.sqrt()));
         self.changes.push(worst(roots));
+        self.observe_rate();
     }
 
     fn residual(&self) -> f64 {
@@ -116,17 +127,18 @@ impl<'a> GaussSeidel<'a> {
         self.problem.relative(at)
     }
 
-    /// The ratio of a change to the one before, over the last two of them.
-    fn rate(&self) -> Option<f64> {
-        let [.., first, _, last] = self.changes[..] else {
-            return None;
-        };
-        Some((last / first).sqrt())
+    /// Over the last two changes, unless they are roundings.
+    fn observe_rate(&mut self) {
+        if let [.., first, _, last] = self.changes[..]
+            && last >= ROUNDING
+        {
+            self.rate = Some((last / first).sqrt());
+        }
     }
 
     /// Never less than before: a rate that the factor itself makes says nothing of the room.
     fn choose_factor(&mut self) {
-        let rate = self.rate().unwrap_or(0.0);
+        let rate = self.rate.unwrap_or(0.0);
         let is_shrinking = rate > self.factor - 1.0 && rate < 1.0;
         if self.is_automatic && LOOKS.contains(&self.changes.len()) && is_shrinking {
             let reflectance = reflectance_behind(rate, self.factor);
@@ -135,9 +147,25 @@ impl<'a> GaussSeidel<'a> {
     }
 }
 
+/// Whether changes are roundings, and have not become less for some sweeps.
+fn is_at_rest(changes: &[f64]) -> bool {
+    let Some((before, last)) = changes.split_last_chunk::<SWEEPS_AT_REST>() else {
+        return false;
+    };
+    let least = |changes: &[f64]| changes.iter().copied().fold(f64::INFINITY, f64::min);
+    least(before) < ROUNDING && least(last) >= least(before)
+}
+
 /// The reflectance of the room of equal patches in which changes shrink by a rate.
 fn reflectance_behind(rate: f64, factor: f64) -> f64 {
     rate.ln() * (rate + factor - 1.0) / (factor * (rate - 1.0))
+}
+
+/// What is missing where changes are lost by rounding: the residual that they were to mend, reflected
+/// on and on.
+fn lost(rate: f64, factor: f64) -> f64 {
+    let reflectance = reflectance_behind(rate.max(factor - 1.0), factor);
+    LOST / (factor * (1.0 - reflectance))
 }
 
 /// The factor at which the rate is `factor - 1`, in the room of equal patches.
@@ -165,13 +193,13 @@ impl Iteration for GaussSeidel<'_> {
         self.sweep();
         let change = self.changes.last().copied().unwrap_or(0.0);
         // What is left shrinks by the same rate: a geometric series.
-        let rest = |rate: f64| change * rate / (1.0 - rate);
-        let error = self.rate().filter(|&rate| rate < 1.0).map(rest);
+        let rest = |rate: f64| change * rate / (1.0 - rate) + lost(rate, self.used);
+        let error = self.rate.filter(|&rate| rate < 1.0).map(rest);
         self.choose_factor();
         Progress {
             residual: self.residual(),
             error,
-            stalled: change == 0.0,
+            stalled: is_at_rest(&self.changes),
             suspicious: false,
         }
     }

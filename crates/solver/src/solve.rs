@@ -82,22 +82,20 @@ pub fn solve(
     };
     let first_residual = iteration.first_residual();
     let mut residuals: Vec<f64> = Vec::new();
-    let (mut converged, mut error) = (problem.is_dark(), None);
-    while !converged && residuals.len() < params.max_passes as usize {
+    let (mut converged, mut stalled, mut error) = (problem.is_dark(), false, None);
+    while !converged && !stalled && residuals.len() < params.max_passes as usize {
         let reached = iteration.advance();
         progress(reached.residual);
         residuals.push(reached.residual);
         converged = reached.residual <= params.tolerance;
+        stalled = !converged && reached.stalled;
         error = reached.error;
         if reached.suspicious || diagnosis::is_growing(&residuals) {
             diagnosis::check_numbers(system)?;
             diagnosis::check_spectral_radius(system)?;
         }
-        if reached.stalled {
-            break;
-        }
     }
-    if !converged && !diagnosis::is_falling(&residuals) {
+    if !converged && !stalled && !diagnosis::is_falling(&residuals) {
         diagnosis::check_spectral_radius(system)?;
     }
     let relaxation = iteration.relaxation();
@@ -107,6 +105,7 @@ pub fn solve(
         report: Convergence {
             method: params.method,
             converged,
+            stalled,
             residual,
             first_residual,
             residuals,

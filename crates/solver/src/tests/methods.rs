@@ -52,18 +52,33 @@ fn running_out_of_passes_is_reported() {
     }
 }
 
-/// Single precision has no better solution than some 1e-7.
+/// Single precision has no better solution than some 1e-7: passes beyond it are not taken, and
+/// what is said of the error stays true there.
 #[test]
-fn nothing_is_done_when_nothing_changes_any_more() {
-    let mut case = Case::uniform_enclosure(20, [1.0, 0.3, 0.7], [0.3, 0.4, 0.5]);
-    case.lights[0][3] = [0.0; 3];
-    let params = Params {
-        tolerance: 1e-12,
-        ..with(GAUSS_SEIDEL)
-    };
-    let report = case.solve(&params).report;
-    assert!(!report.converged && report.residual < 2e-7);
-    assert!(report.residuals.len() < 40, "{}", report.residuals.len());
+fn passes_end_where_single_precision_does() {
+    for rho in [0.3, 0.9] {
+        let mut case = Case::uniform_enclosure(40, [1.0, 0.3, 0.7], [rho; 3]);
+        case.lights[0][3] = [0.0; 3];
+        let truth = exact(&case);
+        for method in METHODS {
+            let passes = case.solve(&with(method)).report.residuals.len();
+            let params = Params {
+                tolerance: 1e-12,
+                ..with(method)
+            };
+            let solution = case.solve(&params);
+            let report = &solution.report;
+            assert!(!report.converged && report.stalled, "{method:?}");
+            // Radiosities are so many times the emission, and rounded with their sums.
+            assert!(report.residual < 2e-7 / (1.0 - rho), "{method:?}");
+            assert!(report.residuals.len() <= 2 * passes + 10, "{method:?}");
+            let error = distance(&case, &in_double(&solution.lights[0]), &truth);
+            let estimate = report.error.unwrap();
+            println!("{rho} {method:?}: {error:.1e}, estimated {estimate:.1e}");
+            // Emission too is rounded to single precision.
+            assert!(error <= 2.0 * estimate + 1e-7, "{method:?}");
+        }
+    }
 }
 
 proptest! {
@@ -128,30 +143,20 @@ fn errors_are_known() {
     for rho in [0.5, 0.9, 0.97] {
         let mut case = Case::uniform_enclosure(40, [0.0; 3], [rho; 3]);
         case.lights[0][0] = [1.0, 2.0, 3.0];
-        let precise = Params {
-            tolerance: 2e-7,
-            ..with(Method::ConjugateGradients)
-        };
-        let truth = in_double(&case.solve(&precise).lights[0]);
+        let truth = exact(&case);
         for method in METHODS {
             let params = Params {
                 tolerance: 1e-4,
                 ..with(method)
             };
             let solution = case.solve(&params);
-            let found = in_double(&solution.lights[0]);
-            let difference = found.iter().zip(&truth);
-            let difference: Vec<Rgb> = difference
-                .map(|(a, b)| std::array::from_fn(|c| a[c] - b[c]))
-                .collect();
-            let error = norm(&case, &difference) / norm(&case, &truth);
+            let error = distance(&case, &in_double(&solution.lights[0]), &truth);
             let Some(estimate) = solution.report.error else {
                 continue;
             };
-            assert!(
-                error <= 2.0 * estimate + 1e-6,
-                "{rho} {method:?}: {error} {estimate}"
-            );
+            // Values are rounded to single precision.
+            let is_known = error <= 2.0 * estimate + 1e-7;
+            assert!(is_known, "{rho} {method:?}: {error} {estimate}");
         }
     }
 }

@@ -125,3 +125,29 @@ fn norm(case: &Case, values: &[Rgb]) -> f64 {
 fn in_double(radiosity: &[[f32; 3]]) -> Vec<Rgb> {
     radiosity.iter().map(|b| b.map(f64::from)).collect()
 }
+
+/// The norm of a difference, relative to that of what is true.
+fn distance(case: &Case, found: &[Rgb], truth: &[Rgb]) -> f64 {
+    let difference = found.iter().zip(truth);
+    let difference: Vec<Rgb> = difference
+        .map(|(a, b)| std::array::from_fn(|c| a[c] - b[c]))
+        .collect();
+    norm(case, &difference) / norm(case, truth)
+}
+
+/// The radiosities of the first light, by bounces in double precision until none adds any more.
+fn exact(case: &Case) -> Vec<Rgb> {
+    let mut x = case.lights[0].clone();
+    loop {
+        let bounced = |i: usize| -> Rgb {
+            let irradiance = irradiance(case, i, &x);
+            std::array::from_fn(|c| case.lights[0][i][c] + case.reflectance[i][c] * irradiance[c])
+        };
+        let next: Vec<Rgb> = (0..x.len()).map(bounced).collect();
+        let change = distance(case, &x, &next);
+        x = next;
+        if change < 1e-15 {
+            return x;
+        }
+    }
+}
