@@ -57,12 +57,14 @@ impl SymmetricMatrix {
         triples: usize,
         update: &mut Update<'_>,
     ) -> Vec<Triple<f64>> {
-        self.sweep_on(InstructionSet::current(), x, triples, update)
+        let set = InstructionSet::current();
+        self.sweep_on(set, self.worth_threads(), x, triples, update)
     }
 
     fn sweep_on(
         &self,
         set: InstructionSet,
+        members: usize,
         x: &mut [Triple<f32>],
         triples: usize,
         update: &mut Update<'_>,
@@ -73,7 +75,6 @@ impl SymmetricMatrix {
         }
         let bands = (0..self.size()).step_by(WIDTH);
         let bands = bands.map(|start| Band::new(start, x, triples)).collect();
-        let members = self.worth_threads();
         let team = Team::new(set, bands, members);
         rayon::scope(|scope| {
             let _dismissal = team.dismissed_at_end();

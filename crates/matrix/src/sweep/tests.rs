@@ -3,6 +3,7 @@
 use super::*;
 use crate::packed_len;
 use proptest::prelude::*;
+use std::panic::AssertUnwindSafe;
 
 /// Numbers in [0, 1) that are not too regular.
 fn number(seed: usize) -> f32 {
@@ -32,12 +33,13 @@ type Sums = (Vec<Triple<f64>>, Vec<Triple<f64>>);
 
 fn swept(
     set: InstructionSet,
+    members: usize,
     matrix: &SymmetricMatrix,
     x: &mut [Triple<f32>],
     triples: usize,
 ) -> Sums {
     let mut above = Vec::new();
-    let below = matrix.sweep_on(set, x, triples, &mut |i, sums, x| {
+    let below = matrix.sweep_on(set, members, x, triples, &mut |i, sums, x| {
         assert_eq!(above.len(), i * triples, "row after row");
         above.extend_from_slice(sums);
         relax(sums, x);
@@ -82,7 +84,7 @@ fn check(size: usize, triples: usize) {
     let matrix = matrix(size);
     let start = vectors(size, triples);
     let mut x = start.clone();
-    let found = swept(InstructionSet::current(), &matrix, &mut x, triples);
+    let found = swept(InstructionSet::current(), 1, &matrix, &mut x, triples);
     let expected = plain(&matrix, &x, triples);
     assert_close(&found.0, &expected.0);
     assert_close(&found.1, &expected.1);
@@ -106,30 +108,47 @@ fn bands_and_tiles_join() {
     check(1100, 2);
 }
 
-/// Large enough for steps on several threads.
+fn pool(threads: usize) -> rayon::ThreadPool {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.expect("threads")
+}
+
+/// More members than there are threads too: those come late, or never.
 #[test]
 fn neither_threads_nor_instruction_sets_have_a_part_in_the_result() {
     let size = 4200;
     let matrix = matrix(size);
-    let run = |set: InstructionSet, threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
+    let run = |set: InstructionSet, members: usize, threads: usize| {
         let mut x = vectors(size, 1);
-        let sums = pool.install(|| swept(set, &matrix, &mut x, 1));
+        let sums = pool(threads).install(|| swept(set, members, &matrix, &mut x, 1));
         (x, sums)
     };
-    let expected = run(InstructionSet::current(), 1);
-    for threads in [2, 3, 5] {
+    let expected = run(InstructionSet::current(), 1, 1);
+    for (members, threads) in [(2, 2), (3, 3), (5, 5), (9, 9), (3, 1), (5, 2)] {
         assert!(
-            run(InstructionSet::current(), threads) == expected,
-            "{threads} threads"
+            run(InstructionSet::current(), members, threads) == expected,
+            "{members} members, {threads} threads"
         );
     }
     for set in InstructionSet::available() {
-        assert!(run(set, 2) == expected, "{}", set.name());
+        assert!(run(set, 2, 2) == expected, "{}", set.name());
     }
+}
+
+/// Helpers go home then, and the panic comes out.
+#[test]
+fn a_panic_in_an_update_ends_the_sweep() {
+    let size = 1100;
+    let matrix = matrix(size);
+    let sweep = || {
+        let mut x = vectors(size, 1);
+        matrix.sweep_on(InstructionSet::current(), 3, &mut x, 1, &mut |i, _, _| {
+            assert!(i < 1050, "enough");
+        })
+    };
+    let caught = std::panic::catch_unwind(AssertUnwindSafe(|| pool(3).install(sweep)));
+    let reason = caught.expect_err("it panicked");
+    assert_eq!(reason.downcast_ref::<&str>(), Some(&"enough"));
 }
 
 #[test]
