@@ -71,7 +71,7 @@ impl<'a> Pipeline<'a> {
             (0..patches).map(emission).collect()
         };
         check_lights(scene)?;
-        let inputs = (facts::VERSION, &mesh, settings::estimator(scene));
+        let inputs = (facts::FACTORS_VERSION, &mesh, settings::estimator(scene));
         let estimate = Key::of(FORM_FACTORS, form_factors::VERSION, &inputs);
         Ok(Pipeline {
             key: if scene.form_factors.closure {
@@ -163,7 +163,9 @@ fn check_lights(scene: &Scene) -> Result<(), Error> {
             .is_some_and(|light| light < scene.lights.len());
         material.emission != [0.0; 3] && !has_light
     };
-    match scene.materials.iter().find(is_lost) {
+    let on_surfaces = scene.surfaces.iter().flat_map(|surface| &surface.materials);
+    let mut materials = on_surfaces.map(|&material| &scene.materials[material]);
+    match materials.find(is_lost) {
         Some(lost) => Err(Error::Input(format!(
             "material `{}` emits but belongs to no light of the scene",
             lost.name

@@ -57,6 +57,7 @@ fn render_reports_one_json_object() {
             "relaxation",
             "residual",
             "seconds",
+            "stalled",
             "sweeps"
         ]
     );

@@ -83,8 +83,10 @@ fn lights_that_are_not_there_are_refused() {
     assert_eq!(code, 3);
     insta::assert_snapshot!(error, @"
     error: there is no light `lmp`
-       = help: the lights of this scene are lamp
+       = help: did you mean `lamp`?
     ");
+    let (code, _, error) = place.run("relight room.toml --no-cache --dim lamp=1 --dim lamp=2");
+    assert!(code == 3 && error.contains("twice"), "{error}");
     for wrong in [
         "--dim lamp",
         "--dim lamp=-1",

@@ -28,5 +28,5 @@ pub use scene::{Scene, load, parse};
 pub use settings::{
     Automatic, FormFactorSettings, ImageSettings, Mode, Relaxation, SolverMethod, SolverSettings,
 };
-pub use source::SceneError;
+pub use source::{SceneError, suggestion};
 pub use surface::Surface;

@@ -1,9 +1,11 @@
 //! `[lights.NAME]`: emitters that are dimmed together.
 
+use crate::material::Material;
 use crate::source::{Complaint, SceneError, Source};
+use crate::surface::Surface;
 use crate::values::{Color, require};
 use serde::Deserialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use toml::Spanned;
 
 /// Materials whose emission is dimmed and tinted together, without solving anew.
@@ -73,6 +75,26 @@ pub(crate) fn lights(
         }
     }
     Ok(lights)
+}
+
+/// Leaves out lights whose materials are on no surface: they cost a solution each, and show nothing.
+pub(crate) fn keep_used(
+    lights: Vec<Light>,
+    materials: &mut [Material],
+    surfaces: &[Surface],
+) -> Vec<Light> {
+    let used: BTreeSet<usize> = surfaces
+        .iter()
+        .flat_map(|surface| &surface.materials)
+        .filter_map(|&material| materials[material].light)
+        .collect();
+    for material in materials {
+        let place = |light: usize| used.iter().position(|&used| used == light);
+        material.light = material.light.and_then(place);
+    }
+    let lights = lights.into_iter().enumerate();
+    let kept = lights.filter(|(number, _)| used.contains(number));
+    kept.map(|(_, light)| light).collect()
 }
 
 fn no_such_light(name: &str, lights: &[Light]) -> Complaint {

@@ -16,7 +16,7 @@ pub struct Material {
     /// Radiant exitance that the surface emits itself, per channel, W/m^2: 0, or
     /// between 1e-30 and 1e30.
     pub emission: [f64; 3],
-    /// The light that it belongs to, by its number in the scene, if it emits.
+    /// The light that it belongs to, by its number in the scene, if it emits and is on a surface.
     pub light: Option<usize>,
 }
 

@@ -2,7 +2,7 @@
 
 use crate::camera::camera;
 use crate::file::SceneFile;
-use crate::light::{Light, lights};
+use crate::light::{Light, keep_used, lights};
 use crate::material::{Material, materials};
 use crate::settings::{FormFactorSettings, ImageSettings, SolverSettings};
 use crate::source::{Complaint, SceneError, Source};
@@ -22,7 +22,7 @@ pub struct Scene {
     pub surfaces: Vec<Surface>,
     /// All materials.
     pub materials: Vec<Material>,
-    /// The groups of emitters that are dimmed together.
+    /// The groups of emitters that are dimmed together; only those that are on surfaces.
     pub lights: Vec<Light>,
     /// The camera, if the scene has one.
     pub camera: Option<Camera>,
@@ -102,7 +102,7 @@ pub fn parse(path: &Path, text: &str) -> Result<Scene, SceneError> {
         source.error(error.span().unwrap_or(0..0), &complaint)
     })?;
     let camera = file.camera.as_ref().map(|table| camera(&source, table));
-    let (materials, names) = materials(&source, file.materials)?;
+    let (mut materials, names) = materials(&source, file.materials)?;
     let lights = lights(&source, &names, &file.lights)?;
     let context = Context {
         source,
@@ -111,6 +111,7 @@ pub fn parse(path: &Path, text: &str) -> Result<Scene, SceneError> {
     };
     let (geometry, surfaces) = context.surfaces(&file.surfaces)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
+    let lights = keep_used(lights, &mut materials, &surfaces);
     Ok(Scene {
         name: name.into_owned(),
         geometry,

@@ -78,6 +78,7 @@ pub enum SolverMethod {
     /// Row after row, with the newest values.
     GaussSeidel,
     /// The fewest passes where light is reflected often.
+    #[serde(alias = "cg")]
     ConjugateGradients,
 }
 

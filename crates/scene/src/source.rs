@@ -48,21 +48,28 @@ impl Complaint {
         wanted: &str,
         candidates: impl Iterator<Item = &'n str> + Clone,
     ) -> Complaint {
-        let similarity = |name: &&str| strsim::jaro_winkler(wanted, name);
-        let nearest = candidates
-            .clone()
-            .max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
-        match nearest {
-            Some(nearest) if similarity(&nearest) > 0.7 => {
-                self.help(format!("did you mean `{nearest}`?"))
-            }
-            Some(_) => {
-                let names: Vec<&str> = candidates.take(12).collect();
-                self.help(format!("there are: {}", names.join(", ")))
-            }
+        match suggestion(wanted, candidates) {
+            Some(help) => self.help(help),
             None => self,
         }
     }
+}
+
+/// "Did you mean" where one of the candidates is similar to what was wanted, or else what there is;
+/// nothing where there is none.
+pub fn suggestion<'n>(
+    wanted: &str,
+    candidates: impl Iterator<Item = &'n str> + Clone,
+) -> Option<String> {
+    let similarity = |name: &&str| strsim::jaro_winkler(wanted, name);
+    let nearest = candidates
+        .clone()
+        .max_by(|a, b| similarity(a).total_cmp(&similarity(b)))?;
+    if similarity(&nearest) > 0.7 {
+        return Some(format!("did you mean `{nearest}`?"));
+    }
+    let names: Vec<&str> = candidates.take(12).collect();
+    Some(format!("there are: {}", names.join(", ")))
 }
 
 impl Source<'_> {

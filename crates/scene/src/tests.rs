@@ -1,8 +1,10 @@
 //! What scenes mean when they are right, and what is said when they are wrong.
 
+mod meshes;
+
 use crate::{Automatic, Mode, Relaxation, Scene, SolverMethod, parse};
 use proptest::prelude::*;
-use radiosity_geometry::{DVec3, Divisions, Shape, SurfaceId};
+use radiosity_geometry::{Divisions, Shape, SurfaceId};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -80,6 +82,9 @@ fn what_is_not_said_has_defaults() {
     assert_eq!(scene.solver.relaxation, Relaxation::Named(Automatic::Auto));
 }
 
+const TUBE: &str = "[[surfaces]]\nname = \"tube\"\nmaterial = \"tube\"\n\
+    triangle = [[0, 0, 2], [1, 0, 2], [0, 1, 2]]\n";
+
 #[test]
 fn materials_belong_to_lights() {
     let light = |scene: &Scene, material: usize| scene.materials[material].light;
@@ -90,7 +95,13 @@ fn materials_belong_to_lights() {
     let more = "[lights.ceiling]\ndim = 0.5\ntint = [1, 0.5, 0]\n\
         [materials.tube]\nreflectance = 0\nemission = 3\nlight = \"ceiling\"\n\
         [materials.lamp]";
-    let text = GOOD.replace("[materials.lamp]", more);
+    let unused = GOOD.replace("[materials.lamp]", more);
+    assert_eq!(
+        parse_text(&unused).unwrap().lights.len(),
+        1,
+        "no surface is a tube"
+    );
+    let text = format!("{unused}{TUBE}");
     let scene = parse_text(&text).unwrap();
     let names: Vec<&str> = scene
         .lights
@@ -178,185 +189,6 @@ fn mistakes_are_explained() {
     insta::assert_snapshot!(report);
 }
 
-/// A scene of one mesh, in a folder of its own.
-struct MeshScene(tempfile::TempDir);
-
-impl MeshScene {
-    fn new(obj: &str) -> MeshScene {
-        let folder = tempfile::TempDir::new().unwrap();
-        std::fs::write(folder.path().join("model.obj"), obj).unwrap();
-        MeshScene(folder)
-    }
-
-    fn parse(&self, file: &str, extra: &str) -> Result<Scene, String> {
-        let text = format!(
-            "[materials.a]\nreflectance = 0.1\n[materials.b]\nreflectance = 0.2\n\
-             [[surfaces]]\nname = \"thing\"\nmaterial = \"a\"\nmesh = {{ file = \"{file}\"{extra}\n"
-        );
-        let folder = self.0.path().display().to_string();
-        parse(&self.0.path().join("scene.toml"), &text)
-            .map_err(|error| error.to_string().replace(&folder, "FOLDER"))
-    }
-}
-
-const TWO_GROUPS: &str = "# two groups\nmtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n\
-    v 0 0 1\ng base\nf 1 2 3 4\ng side\nusemtl shiny thing\nf 1 2 5\n";
-
-fn reflectances(scene: &Scene) -> Vec<f64> {
-    let materials = &scene.surfaces[0].materials;
-    materials
-        .iter()
-        .map(|&m| scene.materials[m].reflectance[0])
-        .collect()
-}
-
-#[test]
-fn meshes_take_materials_by_group_or_material_name() {
-    let scene = MeshScene::new(TWO_GROUPS);
-    let parse = |extra| scene.parse("model.obj", extra).unwrap();
-    assert_eq!(reflectances(&parse(" }")), [0.1, 0.1]);
-    assert_eq!(
-        reflectances(&parse(" }\nmaterials = { base = \"b\" }")),
-        [0.2, 0.1]
-    );
-    assert_eq!(
-        reflectances(&parse(" }\nmaterials = { side = \"b\" }")),
-        [0.1, 0.2]
-    );
-    let both = parse(" }\nmaterials = { side = \"a\", \"shiny thing\" = \"b\" }");
-    assert_eq!(
-        reflectances(&both),
-        [0.1, 0.2],
-        "the material name is the more specific one"
-    );
-}
-
-#[test]
-fn mesh_quads_stay_and_larger_polygons_become_triangles() {
-    let faces = |obj: &str| {
-        let scene = MeshScene::new(obj).parse("model.obj", " }").unwrap();
-        let Shape::Mesh(mesh) = &scene.geometry[0].shape else {
-            panic!()
-        };
-        mesh.faces.iter().map(Vec::len).collect::<Vec<_>>()
-    };
-    assert_eq!(faces(TWO_GROUPS), [4, 3]);
-    // An L of six corners: a fan from its first corner would leave it.
-    let l = "v 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nf 1 2 3 4 5 6\n";
-    assert_eq!(faces(l), [3, 3, 3, 3]);
-    let scene = MeshScene::new(l).parse("model.obj", " }").unwrap();
-    let polygons = scene.geometry[0].shape.polygons().unwrap();
-    let area: DVec3 = polygons.iter().map(|(_, p)| p.area_vector()).sum();
-    assert_eq!(area, DVec3::new(0.0, 0.0, 3.0));
-    assert!(polygons.iter().all(|(_, p)| p.area_vector().z > 0.0));
-}
-
-#[test]
-fn meshes_are_scaled_and_then_moved() {
-    let scene = MeshScene::new(TWO_GROUPS);
-    let scene = scene
-        .parse("model.obj", ", scale = 2, translate = [0, 0, 7] }")
-        .unwrap();
-    let Shape::Mesh(mesh) = &scene.geometry[0].shape else {
-        panic!()
-    };
-    assert!(mesh.positions.contains(&DVec3::new(2.0, 2.0, 7.0)));
-}
-
-#[test]
-fn comments_may_be_in_any_encoding() {
-    let scene = MeshScene::new("");
-    let latin_1 = b"# caf\xe9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    std::fs::write(scene.0.path().join("model.obj"), latin_1).unwrap();
-    assert!(scene.parse("model.obj", " }").is_ok());
-}
-
-#[test]
-fn tabs_and_continued_lines_are_read() {
-    let obj = "v\t0 0 0\nv 1 0 0\nv 0 1 0\nusemtl\tred \nf 1 2 \\\n  3\nf 1 3 9\n";
-    let error = MeshScene::new(obj).parse("model.obj", " }").unwrap_err();
-    assert!(error.contains("model.obj:7:1"), "{error}");
-    let good = MeshScene::new(obj.trim_end_matches("f 1 3 9\n"));
-    let scene = good
-        .parse("model.obj", " }\nmaterials = { red = \"b\" }")
-        .unwrap();
-    assert_eq!(reflectances(&scene), [0.2]);
-}
-
-/// A file may name any library, also the one that this reader puts in front.
-#[test]
-fn material_libraries_change_nothing() {
-    for library in ["none.mtl", "names used"] {
-        let obj = TWO_GROUPS.replace("none.mtl", library);
-        let extra = " }\nmaterials = { \"shiny thing\" = \"b\" }";
-        let scene = MeshScene::new(&obj).parse("model.obj", extra).unwrap();
-        assert_eq!(reflectances(&scene), [0.1, 0.2]);
-    }
-}
-
-#[test]
-fn indented_lines_keep_their_names() {
-    let obj = TWO_GROUPS
-        .replace("\ng ", "\n  g ")
-        .replace("\nusemtl", "\n\tusemtl");
-    for (names, expected) in [
-        ("base = \"b\"", [0.2, 0.1]),
-        ("\"shiny thing\" = \"b\"", [0.1, 0.2]),
-    ] {
-        let extra = format!(" }}\nmaterials = {{ {names} }}");
-        let scene = MeshScene::new(&obj).parse("model.obj", &extra).unwrap();
-        assert_eq!(reflectances(&scene), expected);
-    }
-}
-
-#[test]
-fn a_mesh_is_not_a_scene() {
-    let error = crate::load(Path::new("model.obj")).unwrap_err().to_string();
-    assert!(
-        error.contains("this is a mesh") && error.contains("mesh = {"),
-        "{error}"
-    );
-}
-
-#[test]
-fn mesh_mistakes_are_explained() {
-    let mut report = String::new();
-    let mut add = |obj: &str, file: &str, extra: &str| {
-        let error = MeshScene::new(obj).parse(file, extra).expect_err(obj);
-        writeln!(report, "{error}\n").unwrap();
-    };
-    add("v 0 0 0\nv 1 x 0\n", "model.obj", " }");
-    add(
-        "v 0 0 0\nv 1 0 0\nv 0 1 0\n# fine so far\nf 1 2 9\n",
-        "model.obj",
-        " }",
-    );
-    add(
-        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 three\n",
-        "model.obj",
-        " }",
-    );
-    let degenerate = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 4 0 0\nv 0 1 0\n";
-    add(
-        &format!("{degenerate}f 1 2 6\n\nf 1 2 3\n"),
-        "model.obj",
-        " }",
-    );
-    add(
-        &format!("{degenerate}l 1 2\ng other\nf 1 2 6\nf 1 2 3 4 5\n"),
-        "model.obj",
-        " }",
-    );
-    add("v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n", "model.obj", " }");
-    add("# nothing here\n", "model.obj", " }");
-    add("v 0 0 0\nv 1 0 0\nf 1 2\n", "model.obj", " }");
-    add(TWO_GROUPS, "modle.obj", " }");
-    add(TWO_GROUPS, "model.obj", ", scale = 0 }");
-    add(TWO_GROUPS, "model.obj", " }\nmaterials = { bse = \"b\" }");
-    add(TWO_GROUPS, "model.obj", " }\nmaterials = { base = \"c\" }");
-    insta::assert_snapshot!(report);
-}
-
 #[test]
 fn shipped_scenes_are_good_and_open_with_a_comment() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
@@ -408,17 +240,5 @@ proptest! {
         let end = (start + cut).min(chars.len());
         chars.splice(start..end, insert.chars());
         let _ = parse_text(&chars.into_iter().collect::<String>());
-    }
-
-    #[test]
-    fn damaged_meshes_do_no_harm(at in 0usize..120, cut in 0usize..20, insert in "[ -~\n]{0,8}") {
-        let mut obj = TWO_GROUPS.to_owned();
-        let start = at.min(obj.len());
-        let end = (start + cut).min(obj.len());
-        obj.replace_range(start..end, &insert);
-        let source = crate::source::Source { path: Path::new("m.obj"), text: &obj };
-        if let Ok(mesh) = crate::obj::parse(&source) {
-            let _ = Shape::Mesh(mesh.mesh).polygons();
-        }
     }
 }

@@ -4,11 +4,11 @@ use super::args::CheckArgs;
 use super::site::Site;
 use super::terminal::say;
 use crate::error::Error;
-use crate::lines::{indented, scene_line};
+use crate::lines::{indented, labelled, scene_line};
 use crate::resources::{Needs, bytes, grouped};
 use crate::settings::estimator;
 use radiosity_geometry::count_patches;
-use radiosity_scene::Scene;
+use radiosity_scene::{Light, Scene};
 
 pub(super) fn run(args: &CheckArgs, site: &Site) -> Result<(), Error> {
     let mut scene = site.load(&args.scene.scene)?;
@@ -37,12 +37,23 @@ fn check_lines(scene: &Scene, needs: &Needs) -> Vec<String> {
             bytes(needs.disk),
         ),
     ];
+    lines.extend(lights_line(scene));
     if scene.camera.is_some() && scene.materials.iter().all(|m| m.emission == [0.0; 3]) {
         lines.push(indented(
             "warning: nothing emits light; pictures will be black",
         ));
     }
     lines
+}
+
+/// The lights that can be dimmed, each with its factors if they are not 1.
+fn lights_line(scene: &Scene) -> Option<String> {
+    let light = |light: &Light| match light.dimming() {
+        [1.0, 1.0, 1.0] => light.name.clone(),
+        [r, g, b] => format!("{} (times {r} {g} {b})", light.name),
+    };
+    let lights: Vec<String> = scene.lights.iter().map(light).collect();
+    (!lights.is_empty()).then(|| labelled("lights", &lights.join(", ")))
 }
 
 /// What computing the scene would take.

@@ -52,5 +52,6 @@ pub enum SolverArg {
     /// Row after row, with the newest values of all others
     GaussSeidel,
     /// Conjugate gradients: the fewest passes where light is reflected often
+    #[value(alias = "conjugate-gradients")]
     Cg,
 }

@@ -36,10 +36,11 @@ pub(super) fn run(args: &InspectCommand, site: &Site) -> Result<(), Error> {
             .iter()
             .try_for_each(|line| say(line))?;
     }
-    match &inspection.solution {
-        Some(solution) => say(&solution_line(solution)),
-        None => Ok(()),
+    if let Some(solution) = &inspection.solution {
+        say(&solution_line(solution))?;
+        say(&labelled("lights", &solution.lights.join(", ")))?;
     }
+    Ok(())
 }
 
 fn explanation(path: &Path, miss: &Miss) -> String {

@@ -3,7 +3,8 @@
 use super::parse::{parse_dim, parse_tint};
 use crate::error::Error;
 use clap::Args;
-use radiosity_scene::{Light, Scene};
+use radiosity_scene::{Light, Scene, suggestion};
+use std::collections::BTreeSet;
 
 /// How bright lights are; no solution is made anew for that.
 #[derive(Debug, Args)]
@@ -18,6 +19,8 @@ pub struct LightArgs {
 
 impl LightArgs {
     pub(crate) fn apply(&self, scene: &mut Scene) -> Result<(), Error> {
+        once(&self.dim, "--dim")?;
+        once(&self.tint, "--tint")?;
         for (name, dim) in &self.dim {
             light(scene, name)?.dim = *dim;
         }
@@ -28,6 +31,17 @@ impl LightArgs {
     }
 }
 
+/// Refuses to be told twice of one light.
+fn once<T>(of_lights: &[(String, T)], flag: &str) -> Result<(), Error> {
+    let mut names = BTreeSet::new();
+    match of_lights.iter().find(|(name, _)| !names.insert(name)) {
+        Some((name, _)) => Err(Error::Input(format!(
+            "{flag} is given twice for the light `{name}`\n   = help: give it once for each light"
+        ))),
+        None => Ok(()),
+    }
+}
+
 fn light<'a>(scene: &'a mut Scene, name: &str) -> Result<&'a mut Light, Error> {
     let names: Vec<&str> = scene
         .lights
@@ -35,13 +49,10 @@ fn light<'a>(scene: &'a mut Scene, name: &str) -> Result<&'a mut Light, Error> {
         .map(|light| light.name.as_str())
         .collect();
     let Some(index) = names.iter().position(|known| *known == name) else {
-        let known = if names.is_empty() {
-            "nothing in this scene emits".to_owned()
-        } else {
-            format!("the lights of this scene are {}", names.join(", "))
-        };
+        let help = suggestion(name, names.iter().copied());
+        let help = help.unwrap_or_else(|| "nothing in this scene emits".to_owned());
         return Err(Error::Input(format!(
-            "there is no light `{name}`\n   = help: {known}"
+            "there is no light `{name}`\n   = help: {help}"
         )));
     };
     Ok(&mut scene.lights[index])
