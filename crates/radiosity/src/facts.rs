@@ -10,8 +10,10 @@ use serde::{Deserialize, Serialize};
 pub(crate) const FORM_FACTORS: &str = "form-factors";
 pub(crate) const CLOSURE: &str = "closure";
 pub(crate) const SOLUTION: &str = "solution";
-/// Raise it whenever the layout of anything here changes: it is part of every key.
-pub(crate) const VERSION: u32 = 7;
+/// Raise it whenever the layout of [`FactorFacts`] changes: it is part of their keys.
+pub(crate) const FACTORS_VERSION: u32 = 7;
+/// The same for [`SolutionFacts`].
+pub(crate) const SOLUTION_VERSION: u32 = 8;
 
 /// Beside the matrix of form factors.
 #[derive(Debug, Serialize, Deserialize)]

@@ -4,26 +4,14 @@ use crate::error::Error;
 use crate::pipeline::Pipeline;
 use plotters::prelude::*;
 use radiosity_form_factors::FormFactors;
-use radiosity_solver::{Method, Relaxation};
+use radiosity_solver::Method;
 
-/// The methods, their names, and their colours: of equal lightness, and apart for those who do not
-/// tell red from green (Okabe & Ito 2008).
-const METHODS: [(&str, Method, RGBColor); 3] = [
-    (
-        "Gauss-Seidel",
-        Method::GaussSeidel(Relaxation::Factor(1.0)),
-        RGBColor(0, 114, 178),
-    ),
-    (
-        "over-relaxation",
-        Method::GaussSeidel(Relaxation::Automatic),
-        RGBColor(213, 94, 0),
-    ),
-    (
-        "conjugate gradients",
-        Method::ConjugateGradients,
-        RGBColor(0, 158, 115),
-    ),
+/// The colours of the methods: of equal lightness, and apart for those who do not tell red from green
+/// (Okabe & Ito 2008).
+const COLORS: [RGBColor; 3] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
 ];
 const SIZE: (u32, u32) = (720, 420);
 
@@ -40,7 +28,7 @@ pub(crate) fn convergence_plot(
     form_factors: &FormFactors,
 ) -> Result<String, Error> {
     let mut courses = Vec::new();
-    for (name, method, color) in METHODS {
+    for ((name, method), color) in Method::RIVALS.into_iter().zip(COLORS) {
         let residuals = pipeline.solve_by(method, form_factors)?.report.residuals;
         courses.push(Course {
             name,

@@ -17,6 +17,18 @@ pub enum Method {
     ConjugateGradients,
 }
 
+impl Method {
+    /// The reference and its rivals, with their names, for whoever sets them side by side.
+    pub const RIVALS: [(&'static str, Method); 3] = [
+        ("Gauss-Seidel", Method::GaussSeidel(Relaxation::Factor(1.0))),
+        (
+            "over-relaxation",
+            Method::GaussSeidel(Relaxation::Automatic),
+        ),
+        ("conjugate gradients", Method::ConjugateGradients),
+    ];
+}
+
 /// How to solve, and when to stop.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Params {

@@ -7,7 +7,7 @@ use radiosity::cache::Store;
 use radiosity::form_factors::FormFactors;
 use radiosity::matrix::SymmetricMatrix;
 use radiosity::scene::{Mode, Scene, load};
-use radiosity::solver::{Convergence, Method, Relaxation, relit};
+use radiosity::solver::{Convergence, Method, relit};
 use radiosity::{Error, Pipeline, Silent, Sources, cells};
 use rayon::prelude::*;
 use std::path::Path;
@@ -30,12 +30,6 @@ const FOUR_LIGHTS: f64 = 1.3;
 const MOST_PASSES: f64 = 12.0;
 const MOST_STEPS: f64 = 15.0;
 const COURSE: f64 = 60.0;
-
-const METHODS: [(&str, Method); 3] = [
-    ("gauss_seidel", Method::GaussSeidel(Relaxation::Factor(1.0))),
-    ("relaxed", Method::GaussSeidel(Relaxation::Automatic)),
-    ("conjugate_gradients", Method::ConjugateGradients),
-];
 
 pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
     let folder = tempfile::tempdir().map_err(|error| Error::Output {
@@ -163,7 +157,8 @@ fn sum(values: &[f32]) -> f32 {
 /// What each method takes to each residual.
 fn methods(mut scene: Scene, made: &FormFactors) -> Result<Vec<Figure>, Error> {
     let mut figures = Vec::new();
-    for (name, method) in METHODS {
+    for (name, method) in Method::RIVALS {
+        let name = name.to_lowercase().replace([' ', '-'], "_");
         for residual in RESIDUALS {
             scene.solver.tolerance = residual;
             let pipeline = Pipeline::new(&scene, None, &Silent)?;
@@ -172,8 +167,8 @@ fn methods(mut scene: Scene, made: &FormFactors) -> Result<Vec<Figure>, Error> {
             let seconds = best(runs(patches).div_ceil(5), || {
                 std::hint::black_box(pipeline.solve_by(method, made).is_ok());
             });
-            let promise = match (&scene.name[..], name) {
-                ("cornell", "relaxed") if residual < 1e-5 => Some(MOST_PASSES),
+            let promise = match (&scene.name[..], &name[..]) {
+                ("cornell", "over_relaxation") if residual < 1e-5 => Some(MOST_PASSES),
                 ("closed_0.95", "conjugate_gradients") if residual < 1e-5 => Some(MOST_STEPS),
                 _ => None,
             };
@@ -234,7 +229,7 @@ fn previews(scene: &Scene, made: &FormFactors) -> Result<Vec<Figure>, Error> {
 /// The course's sweeps beside the default solution of the same scene.
 fn beside_the_course(made: &FormFactors, figures: &[Figure]) -> Figure {
     let patches = made.exchange.size();
-    let ours = format!("solver.{patches}.cornell.relaxed.1e-6.ms");
+    let ours = format!("solver.{patches}.cornell.over_relaxation.1e-6.ms");
     let ours = figures.iter().find(|figure| figure.name == ours);
     let ours = ours.and_then(|figure| figure.value);
     let course = 1e3 * course::seconds(made);

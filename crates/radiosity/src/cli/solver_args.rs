@@ -29,8 +29,8 @@ pub struct SolveArgs {
     #[arg(long, value_name = "FILE.bin")]
     pub start_from: Option<PathBuf>,
     /// Do not wait: so many percent of the form factors, where most light leaves from, and an even
-    /// glow for the rest of it [default: 5]
-    #[arg(long, value_name = "PERCENT", num_args = 0..=1, default_missing_value = "5", value_parser = parse_percent, conflicts_with = "start_from")]
+    /// glow for the rest of it; patches shoot by eights, so 25 is all there is [default: 5]
+    #[arg(long, value_name = "PERCENT", num_args = 0..=1, default_missing_value = "5", value_parser = parse_percent, conflicts_with_all = ["start_from", "solver", "relaxation", "residual", "max_sweeps", "closure"])]
     pub preview: Option<f64>,
 }
 

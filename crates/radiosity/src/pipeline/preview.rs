@@ -35,7 +35,10 @@ impl Pipeline<'_> {
         let estimation = Estimation::new(&self.mesh, settings::estimator(self.scene));
         let areas: Vec<f64> = self.mesh.patches.iter().map(|patch| patch.area).collect();
         let clusters = estimation.clusters().map(<[usize]>::to_vec).collect();
-        let mut light = Progressive::new(&areas, &self.reflectance, &self.lights, clusters);
+        // All lights at once, as bright as they are: what is dimmed is worth fewer rows.
+        let emission = self.dimmed_emission().into_iter();
+        let lights = [emission.map(|e| e.map(f64::from)).collect()];
+        let mut light = Progressive::new(&areas, &self.reflectance, &lights, clusters);
         let pairs = packed_len(areas.len()).max(1) as f64;
         let most = (share * pairs / areas.len().max(1) as f64).ceil() as usize;
         let mut rows: BTreeMap<usize, Vec<f32>> = BTreeMap::new();
@@ -70,7 +73,7 @@ impl Pipeline<'_> {
         }
         self.observer.end();
         Ok(Preview {
-            radiosity: self.dimmed(&light.lights()),
+            radiosity: light.lights().concat(),
             share: ((rows.len() * areas.len()) as f64 / pairs).min(1.0),
             unshot: light.unshot(),
         })

@@ -135,7 +135,7 @@ impl Pipeline<'_> {
     }
 
     /// The radiosities of the lights, as bright as the scene has them.
-    pub(super) fn dimmed(&self, lights: &[Vec<[f32; 3]>]) -> Vec<[f32; 3]> {
+    fn dimmed(&self, lights: &[Vec<[f32; 3]>]) -> Vec<[f32; 3]> {
         let mut sum = solver::relit(lights, &settings::dimming(self.scene));
         // It is dark where there are no lights.
         sum.resize(self.mesh.patches.len(), [0.0; 3]);
@@ -163,7 +163,7 @@ impl Pipeline<'_> {
 
     fn solution_id(&self) -> Id<'_> {
         let inputs = (
-            facts::VERSION,
+            facts::SOLUTION_VERSION,
             self.key.bytes(),
             &self.lights,
             &self.reflectance,
@@ -240,6 +240,9 @@ impl Start {
                 path.display()
             ))
         };
+        if path.is_dir() {
+            return Err(unusable(&"this is a folder"));
+        }
         let opened = open(path).map_err(|miss| unusable(&miss))?;
         if opened.stage != SOLUTION {
             return Err(unusable(&format!(
