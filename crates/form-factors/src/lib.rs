@@ -19,7 +19,6 @@
 //! invalidate what it computed.
 
 mod accurate;
-mod angle;
 mod blocker;
 mod closure;
 mod contour;
@@ -60,7 +59,7 @@ pub use tally::{ClassFacts, Classes, Tally};
 
 /// Raise it whenever the same mesh would give other form factors, because of a change here, in
 /// `geometry`, or in the random numbers: it is part of their key.
-pub const VERSION: u32 = 5;
+pub const VERSION: u32 = 6;
 
 /// How the double integral of a pair is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -127,6 +126,9 @@ pub struct RowFacts {
     pub background: f64,
     /// Standard error of the sum of `backs` and `background`.
     pub rays_error: f64,
+    /// The share of the patch's area that can be seen: of points that see more of backs than of
+    /// all else, one says that they are inside of something, or covered. By rays, to some percent.
+    pub visible: f64,
     /// The estimated sum of the absolute errors of the row's factors, if the estimator tells.
     pub error: Option<f64>,
 }
@@ -162,6 +164,7 @@ impl FormFactors {
             backs: surroundings[i].backs,
             background: surroundings[i].background,
             rays_error: surroundings[i].error,
+            visible: surroundings[i].visible,
             error: errors.as_ref().map(|(of_rows, _)| of_rows[i]),
         };
         FormFactors {

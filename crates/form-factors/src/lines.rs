@@ -3,12 +3,11 @@
 //! known in closed form. What is left to sample is continuous, and needs far fewer samples than
 //! points do.
 
-use crate::angle::angle;
 use crate::blocker::{Blocker, Plane};
 use crate::target::{Points, Target, at, dot, height, points};
 use crate::visible::{Sampler, Shifts, coordinate};
 use arrayvec::ArrayVec;
-use radiosity_simd::{Float, Simd};
+use radiosity_simd::{Float, Simd, angle};
 
 /// More blockers are not worth sorting.
 pub(crate) const MOST_BLOCKERS: usize = 8;

@@ -61,6 +61,7 @@ impl FormFactors {
             sum.fronts += weight * row.fronts;
             sum.backs += weight * row.backs;
             sum.background += weight * row.background;
+            sum.visible += weight * row.visible;
             // Rays of different patches are independent.
             sum.rays_error = sum.rays_error.hypot(weight * row.rays_error);
             sum.error = (sum.error.zip(row.error)).map(|(sum, error)| sum + weight * error);

@@ -12,8 +12,24 @@ use radiosity_geometry::{DVec3, FaceId, Mesh, Patch, Ray};
 use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
 use std::f64::consts::FRAC_PI_4;
 
-/// Rays from each patch, under each of eight shifts. A power of two.
-const RAYS: usize = 32;
+/// How closely one looks.
+#[derive(Clone, Copy)]
+struct Effort {
+    /// Rays from the patch, under each of eight shifts. A power of two.
+    rays: usize,
+    /// Cells along each edge of the patch of which one tells whether they are hidden.
+    cells: usize,
+}
+
+const FIRST_LOOK: Effort = Effort { rays: 32, cells: 4 };
+/// For patches of which a part is hidden.
+const CLOSE_LOOK: Effort = Effort {
+    rays: 256,
+    cells: 8,
+};
+/// Where backs are more than this share of what a point sees, it lies inside of something. At the foot
+/// of a wall that turns its back it is a half, which a cell's rays miss by less.
+const HIDDEN: f64 = 0.65;
 /// Tells these shifts from those of pairs of patches.
 const SEED: u64 = 1;
 /// So many faces are tried in turn; more are found by a tree.
@@ -27,6 +43,8 @@ pub(crate) struct Surroundings {
     pub(crate) background: f64,
     /// Standard error of their sum.
     pub(crate) error: f64,
+    /// See [`RowFacts::visible`](crate::RowFacts::visible).
+    pub(crate) visible: f64,
 }
 
 /// By shift: the weights of all rays, of those that met backs, and of those that met nothing.
@@ -34,28 +52,50 @@ struct Sums {
     all: [f64; LANES],
     backs: [f64; LANES],
     background: [f64; LANES],
+    /// Of each cell of the patch, the weights of all rays and of those that met backs.
+    cells: Vec<[f64; 2]>,
 }
 
 /// Looks around from the patch of this index.
 pub(crate) fn look_around(mesh: &Mesh, obstacles: &Obstacles, index: usize) -> Surroundings {
     let patch = &mesh.patches[index];
-    let sums = dispatch(Look {
-        obstacles,
-        patch,
-        in_front: in_front(obstacles, patch),
-        shifts: &shifts(Stream::of_pair(SEED, index, index)),
-    });
+    let walls = in_front(obstacles, patch);
+    let look = |effort: Effort| {
+        dispatch(Look {
+            obstacles,
+            patch,
+            in_front: walls.as_deref(),
+            shifts: &shifts(Stream::of_pair(SEED, index, index)),
+            effort,
+        })
+    };
+    let sums = look(FIRST_LOOK);
+    let mut visible = visible_share(&sums.cells);
+    if visible > 0.0 && visible < 1.0 {
+        visible = visible_share(&look(CLOSE_LOOK).cells);
+    }
     let total = |lanes: &[f64; LANES]| lanes.iter().sum::<f64>();
     let all = total(&sums.all);
     let found = std::array::from_fn(|lane| sums.backs[lane] + sums.background[lane]);
     let (_, scatter) = ratio(&found, &sums.all);
     // What is smaller than the share of one ray may have gone unseen.
-    let unseen = 1.0 / (LANES * RAYS) as f64;
+    let unseen = 1.0 / (LANES * FIRST_LOOK.rays) as f64;
     Surroundings {
         backs: total(&sums.backs) / all,
         background: total(&sums.background) / all,
         error: scatter.max(unseen),
+        visible,
     }
+}
+
+/// The share of the cells that are not hidden, by the weights of their rays.
+fn visible_share(cells: &[[f64; 2]]) -> f64 {
+    let (mut visible, mut whole) = (0.0, 0.0);
+    for [all, backs] in cells {
+        whole += all;
+        visible += if *backs <= HIDDEN * all { *all } else { 0.0 };
+    }
+    visible / whole
 }
 
 /// The walls in front of a patch, unless there are too many in the scene.
@@ -93,12 +133,15 @@ struct Wall<'a> {
 struct Look<'a> {
     obstacles: &'a Obstacles,
     patch: &'a Patch,
-    in_front: Option<Vec<Wall<'a>>>,
+    in_front: Option<&'a [Wall<'a>]>,
     shifts: &'a Shifts,
+    effort: Effort,
 }
 
 /// Rays, one per lane.
 struct Rays<F> {
+    /// Coordinates on the patch, from 0 to 1.
+    on_patch: [F; 2],
     from: Points<F>,
     direction: [F; 3],
 }
@@ -117,9 +160,11 @@ impl Kernel for Look<'_> {
         let zero = simd.splat_f64(0.0);
         let (mut all, mut backs, mut background) = (zero, zero, zero);
         let target = Target::new(self.patch);
-        for k in 0..RAYS {
+        let Effort { rays: count, cells } = self.effort;
+        let mut of_cells = vec![[0.0; 2]; cells * cells];
+        for k in 0..count {
             let rays = rays(simd, (self.patch, &target), k, self.shifts);
-            let met = match &self.in_front {
+            let met = match self.in_front {
                 Some(walls) => meet(simd, walls, &rays),
                 None => trace(self.obstacles, self.obstacles.wall(self.patch), &rays),
             };
@@ -127,11 +172,19 @@ impl Kernel for Look<'_> {
             all = all + weight;
             backs = backs + weight.select(met.backs, zero);
             background = background + weight.select(met.nothing, zero);
+            let (u, v) = (rays.on_patch[0].lanes(), rays.on_patch[1].lanes());
+            for (lane, weight) in weight.lanes().into_iter().enumerate() {
+                let along = |x: f64| ((x * cells as f64) as usize).min(cells - 1);
+                let cell = &mut of_cells[along(u[lane]) * cells + along(v[lane])];
+                cell[0] += weight;
+                cell[1] += weight * f64::from(met.backs >> lane & 1);
+            }
         }
         Sums {
             all: all.lanes(),
             backs: backs.lanes(),
             background: background.lanes(),
+            cells: of_cells,
         }
     }
 }
@@ -164,7 +217,11 @@ fn rays<S: Simd>(
             + y * simd.splat_f64(bitangent[axis])
             + z * simd.splat_f64(patch.normal[axis]);
     }
-    Rays { from, direction }
+    Rays {
+        on_patch: [u, v],
+        from,
+        direction,
+    }
 }
 
 /// The unit square onto the unit disk, by Shirley and Chiu's map ("A Low Distortion Map Between

@@ -195,6 +195,7 @@ impl<'a> FactorTable<'a> {
             "rays_error",
             "sky",
             "error",
+            "visible",
         ]);
         columns.extend(dropped.map(|_| "dropped"));
         file.write_record(columns)?;
@@ -213,11 +214,13 @@ impl<'a> FactorTable<'a> {
                 backs,
                 background,
                 rays_error,
+                visible,
                 error,
             } = *facts;
             record.push(row.area.to_string());
             record.extend([fronts, backs, background].map(|share| format!("{share:.9}")));
             record.extend([short(Some(rays_error)), format!("{sky:.9}"), short(error)]);
+            record.push(format!("{visible:.4}"));
             record.extend(dropped.map(|dropped| short(Some(dropped[k]))));
             file.write_record(record)?;
         }

@@ -25,6 +25,7 @@
 //! lanes everywhere: all instruction sets give the same bits. The environment variable
 //! `RADIOSITY_SIMD` (`portable`, `avx2`, `avx512`) picks one, to measure or to test.
 
+mod angle;
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 #[cfg(target_arch = "x86_64")]
@@ -32,6 +33,8 @@ mod avx512;
 mod portable;
 #[cfg(target_arch = "x86_64")]
 mod registers;
+
+pub use angle::angle;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::OnceLock;

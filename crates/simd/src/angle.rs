@@ -1,6 +1,6 @@
 //! Arcs, eight at a time.
 
-use radiosity_simd::{Float, Simd};
+use crate::{Float, Simd};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 /// Above this the argument is turned by an eighth.
@@ -24,7 +24,7 @@ const Q: [f64; 6] = [
 
 /// The angle from the positive x axis to the point `(x, y)`, with `y` not negative: from 0 to pi.
 #[inline(always)]
-pub(crate) fn angle<S: Simd>(simd: S, y: S::F64, x: S::F64) -> S::F64 {
+pub fn angle<S: Simd>(simd: S, y: S::F64, x: S::F64) -> S::F64 {
     let zero = simd.splat_f64(0.0);
     let wide = x.max(-x);
     let (low, high) = (y.min(wide), y.max(wide));
@@ -53,8 +53,8 @@ fn arctangent<S: Simd>(simd: S, x: S::F64) -> S::F64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{InstructionSet, Kernel, LANES};
     use proptest::prelude::*;
-    use radiosity_simd::{InstructionSet, Kernel, LANES};
 
     struct Angle([f64; 2]);
 

@@ -1,0 +1,73 @@
+//! How much of a patch can be seen.
+
+use radiosity_form_factors::{Estimator, FormFactors, estimate};
+use radiosity_geometry::{DVec3, Divisions, Shape, Surface, subdivide};
+
+fn surface(corner: DVec3, edge_a: DVec3, edge_b: DVec3, divisions: u32) -> Surface {
+    Surface {
+        shape: Shape::Parallelogram {
+            corner,
+            edge_a,
+            edge_b,
+        },
+        divisions: Some(Divisions::uniform(divisions)),
+    }
+}
+
+/// A floor of 2 x 2 patches of size 1, and other things.
+fn estimated(others: Vec<Surface>) -> FormFactors {
+    let mut surfaces = vec![surface(DVec3::ZERO, 2.0 * DVec3::X, 2.0 * DVec3::Y, 2)];
+    surfaces.extend(others);
+    let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
+    estimate(&mesh, Estimator::Regular { points: 2 }, &|_| ())
+}
+
+fn visible(others: Vec<Surface>) -> [f64; 4] {
+    let made = estimated(others);
+    std::array::from_fn(|patch| made.rows[patch].visible)
+}
+
+/// The walls and the lid of a box on the floor, their fronts outside.
+fn cuboid(corner: DVec3, [x, y, z]: [f64; 3]) -> Vec<Surface> {
+    let [x, y, z] = [x * DVec3::X, y * DVec3::Y, z * DVec3::Z];
+    vec![
+        surface(corner + z, x, y, 1),
+        surface(corner, x, z, 1),
+        surface(corner + y, z, x, 1),
+        surface(corner, z, y, 1),
+        surface(corner + x, y, z, 1),
+    ]
+}
+
+/// Cells are 1/8 of an edge: where an edge of the box cuts across, half a cell on either side may
+/// count wrongly.
+#[test]
+fn what_stands_on_a_patch_hides_what_is_under_it() {
+    assert_eq!(visible(Vec::new()), [1.0; 4]);
+    // All of patch (0, 1), and 0.3 x 0.4 of patch (0, 0).
+    let mut boxes = cuboid(DVec3::new(0.0, 1.0, 0.0), [1.0, 1.0, 0.7]);
+    boxes.extend(cuboid(DVec3::new(0.2, 0.3, 0.0), [0.3, 0.4, 0.5]));
+    let [partly, covered, beside, far] = visible(boxes);
+    assert!(
+        (partly - (1.0 - 0.3 * 0.4)).abs() <= (0.3 + 0.4) / 8.0,
+        "{partly}"
+    );
+    assert_eq!([covered, beside, far], [0.0, 1.0, 1.0]);
+}
+
+/// A plate with a gap below it: nothing can be seen but at its border.
+#[test]
+fn a_cover_hides_what_it_covers() {
+    let plate = surface(DVec3::new(0.5, 0.0, 1e-3), 0.5 * DVec3::X, DVec3::Y, 1);
+    let [half, ..] = visible(vec![plate]);
+    assert!((half - 0.5).abs() <= 1.0 / 16.0, "{half}");
+}
+
+/// A wall beside a patch, seen from behind, takes less than half of any view.
+#[test]
+fn backs_in_sight_hide_nothing() {
+    let wall = surface(DVec3::ZERO, 2.0 * DVec3::X, 5.0 * DVec3::Z, 1);
+    let made = estimated(vec![wall]);
+    assert!(made.rows[0].backs > 0.2);
+    assert!(made.rows[..4].iter().all(|row| row.visible == 1.0));
+}
