@@ -5,7 +5,7 @@ use radiosity::geometry::{Camera, DVec3, Divisions};
 use radiosity::scene::{Material, Mode, Scene};
 use radiosity::solver::Solution;
 use radiosity::{How, Observer, Pipeline, Silent, Solved, Sources, Stage};
-use radiosity_tests::shipped;
+use radiosity_tests::{BOTH, shipped};
 use std::fs;
 use std::path::PathBuf;
 use std::sync::Mutex;
@@ -101,7 +101,7 @@ fn a_cold_run_equals_a_warm_one_byte_for_byte() {
     let render = |cache: Option<&Store>| {
         let pipeline = Pipeline::new(&bench.scene, cache, &Silent).unwrap();
         let solved = pipeline.solution(Sources::Cached).unwrap();
-        let pictures = pipeline.pictures(&solved.radiosity).unwrap();
+        let pictures = pipeline.pictures(&solved.light, &BOTH).unwrap();
         (solved.solution, pictures)
     };
     let cold: (Solution, _) = render(None);

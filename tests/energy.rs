@@ -73,7 +73,7 @@ fn direction(normal: DVec3, rng: &mut Pcg64Mcg) -> DVec3 {
 
 /// What the report says, as shares of the power that leaves all patches.
 fn reported(pipeline: &Pipeline<'_>, solved: &Solved) -> Shares {
-    let patches = pipeline.mesh().patches.iter().zip(&solved.radiosity);
+    let patches = pipeline.mesh().patches.iter().zip(&solved.light.radiosity);
     let power: f64 = patches
         .map(|(patch, b)| patch.area * f64::from(b[GREEN]))
         .sum();
@@ -102,7 +102,7 @@ fn power_arrives_where_rays_do() {
         assert!(solved.solution.report.converged, "{name}");
         let (found, expected) = (
             reported(&pipeline, &solved),
-            traced(&pipeline, &solved.radiosity),
+            traced(&pipeline, &solved.light.radiosity),
         );
         println!("{name}: {found:?}, by rays {expected:?}");
         for (found, expected) in [

@@ -145,7 +145,7 @@ fn the_furnace_is_uniform_up_to_its_row_sums() {
     let sums = || made.form_factors.rows.iter().map(|row| row.fronts);
     let (low, high) = (sums().fold(2.0, f64::min), sums().fold(0.0, f64::max));
     let material = &scene.materials[0];
-    for b in solve(&pipeline).radiosity {
+    for b in solve(&pipeline).light.radiosity {
         for c in 0..3 {
             let bound = |sum: f64| material.emission[c] / (1.0 - material.reflectance[c] * sum);
             // The residual of 1e-6 leaves an error of at most 1e-6 / (1 - 0.8 high).
@@ -163,7 +163,7 @@ fn black_rooms_show_their_lamps_alone() {
         material.reflectance = [0.0; 3];
     }
     let pipeline = pipeline(&scene);
-    for (index, b) in solve(&pipeline).radiosity.into_iter().enumerate() {
+    for (index, b) in solve(&pipeline).light.radiosity.into_iter().enumerate() {
         let emitted = if pipeline.surface_name(index) == "light" {
             12.0
         } else {
@@ -181,7 +181,7 @@ fn radiosity_is_linear_in_emission() {
         material.emission = material.emission.map(|e| 4.0 * e);
     }
     let (one, four) = (solve(&pipeline(&scene)), solve(&pipeline(&brighter)));
-    for (one, four) in one.radiosity.iter().zip(&four.radiosity) {
+    for (one, four) in one.light.radiosity.iter().zip(&four.light.radiosity) {
         // A power of two moves exponents only.
         assert_eq!(one.map(|c| 4.0 * c), *four);
     }

@@ -1,9 +1,12 @@
 //! The whole chain against path-traced truth.
 
-use radiosity::geometry::Divisions;
+use radiosity::geometry::{Divisions, PixelFilter};
 use radiosity::radiosity_table;
+use radiosity::renderer::Shading;
 use radiosity::scene::Mode;
-use radiosity_tests::{picture_errors, pipeline, radiosity_errors, shipped, solve, table_errors};
+use radiosity_tests::{
+    BOTH, picture_errors, pipeline, radiosity_errors, shipped, solve, table_errors,
+};
 
 /// What the course program is known to reach on its scene, to a tenth of a point: RMSE 4.50 %
 /// and bias +1.63 % of the radiosities, smooth picture 5.9 % and constant 9.0 % away from edges.
@@ -18,10 +21,10 @@ fn the_course_is_reproduced() {
     assert!((rmse - 4.50).abs() < 0.1, "RMSE {rmse}");
     assert!((bias - 1.63).abs() < 0.1, "bias {bias}");
 
-    let pictures = pipeline.pictures(&solved.radiosity).unwrap();
-    let away_from_edges = |image| picture_errors(image, "0-2");
-    let constant = away_from_edges(&pictures.constant);
-    let smooth = away_from_edges(&pictures.smooth);
+    let pictures = pipeline.pictures(&solved.light, &BOTH).unwrap();
+    let away_from_edges = |image| picture_errors(image, PixelFilter::Tents, "0-2");
+    let constant = away_from_edges(&pictures[0]);
+    let smooth = away_from_edges(&pictures[1]);
     println!(
         "constant picture: RMSE {:.3} %, bias {:+.3} %",
         constant.rmse_percent, constant.bias_percent
@@ -34,10 +37,8 @@ fn the_course_is_reproduced() {
         (constant.rmse_percent - 9.0).abs() < 0.1,
         "constant picture {constant:?}"
     );
-    assert!(
-        (smooth.rmse_percent - 5.9).abs() < 0.1,
-        "smooth picture {smooth:?}"
-    );
+    // The course's has 5.9 %: its hidden patches darken what is beside them.
+    assert!(smooth.rmse_percent < 5.2, "smooth picture {smooth:?}");
 }
 
 /// What patches of constant radiosity cost is all that is left: 1.24 % and 0.58 % with factors that are
@@ -50,7 +51,7 @@ fn accurate_factors_leave_the_error_of_the_patches() {
     let tables = [12, 24].map(|n| {
         scene.divisions = Divisions::uniform(n);
         let pipeline = pipeline(&scene);
-        radiosity_table(&scene, pipeline.mesh(), &solve(&pipeline).radiosity)
+        radiosity_table(&scene, pipeline.mesh(), &solve(&pipeline).light.radiosity)
     });
     let coarse = tables[1].coarsened(6).unwrap();
     for (found, n, most, bias) in [
@@ -69,20 +70,53 @@ fn accurate_factors_leave_the_error_of_the_patches() {
     }
 }
 
+/// Pictures from nearly exact factors, away from edges. Bicubic interpolation of exact means would leave
+/// 4.3 % of 12 x 12 patches, 2.0 % of 24 x 24 and 1.15 % of 48 x 48, if patches that are hidden in part
+/// were taken as they are. With exact direct light what remains is what patches of constant radiosity do
+/// to light that is reflected more often, -0.4 % of bias at 12 x 12 included.
+#[test]
+fn pictures_are_near_the_truth() {
+    let mut scene = shipped("cornell");
+    scene.form_factors.mode = Mode::Accurate;
+    scene.form_factors.tolerance = 2e-3;
+    scene.image.filter = PixelFilter::Box;
+    for (n, most_smooth, most_exact, bias) in [
+        (12, 4.6, 1.5, 0.45),
+        (24, 1.8, 0.6, 0.25),
+        (48, 0.6, 0.3, 0.1),
+    ] {
+        scene.divisions = Divisions::uniform(n);
+        let pipeline = pipeline(&scene);
+        let light = solve(&pipeline).light;
+        let pictures = pipeline
+            .pictures(&light, &[Shading::Smooth, Shading::Exact])
+            .unwrap();
+        let errors = [0, 1].map(|k| picture_errors(&pictures[k], PixelFilter::Box, "0-2"));
+        let [smooth, exact] = errors.map(|errors| errors.rmse_percent);
+        let found = errors[1].bias_percent;
+        println!("{n} x {n}: smooth {smooth:.3} %, exact {exact:.3} %, bias {found:+.3} %");
+        assert!(
+            smooth <= most_smooth && exact <= most_exact,
+            "{n}: {errors:?}"
+        );
+        assert!(found.abs() <= bias, "{n}: {errors:?}");
+    }
+}
+
 /// The same surfaces as triangles give the same picture. Shading triangles must not cost
-/// accuracy: the smooth picture is as close to the truth as bicubic interpolation on the
-/// rectangles is (5.9 %, see above), and much closer than the constant one.
+/// accuracy: the smooth picture is as close to the truth as the course's on rectangles is (5.9 %),
+/// and much closer than the constant one.
 #[test]
 fn triangles_are_as_good_as_rectangles() {
     let scene = shipped("cornell-triangles");
     let pipeline = pipeline(&scene);
-    let pictures = pipeline.pictures(&solve(&pipeline).radiosity).unwrap();
-    let away_from_edges = |image| picture_errors(image, "0-2");
-    let smooth = away_from_edges(&pictures.smooth);
+    let pictures = pipeline.pictures(&solve(&pipeline).light, &BOTH).unwrap();
+    let away_from_edges = |image| picture_errors(image, PixelFilter::Tents, "0-2");
+    let smooth = away_from_edges(&pictures[1]);
     println!(
         "smooth picture of triangles: RMSE {:.3} %, bias {:+.3} %",
         smooth.rmse_percent, smooth.bias_percent
     );
     assert!(smooth.rmse_percent < 5.9, "{smooth:?}");
-    assert!(away_from_edges(&pictures.constant).rmse_percent > 8.0);
+    assert!(away_from_edges(&pictures[0]).rmse_percent > 8.0);
 }

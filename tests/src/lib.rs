@@ -7,9 +7,13 @@ mod reference;
 pub use measure::{picture_errors, radiosity_errors, table_errors};
 pub use reference::{radiance, reference_table, regions};
 
+use radiosity::renderer::Shading;
 use radiosity::scene::{Scene, load};
 use radiosity::{Pipeline, Silent, Solved, Sources};
 use std::path::{Path, PathBuf};
+
+/// The shadings of the course's pictures.
+pub const BOTH: [Shading; 2] = [Shading::Constant, Shading::Smooth];
 
 /// A folder or file of the checkout.
 pub fn in_checkout(path: &str) -> PathBuf {

@@ -12,7 +12,7 @@ const EXPOSURE: f64 = 4.0;
 
 /// The errors of radiosities of 12 x 12 patches against the table.
 pub fn radiosity_errors(scene: &Scene, pipeline: &Pipeline<'_>, solved: &Solved) -> Errors {
-    let found = radiosity_table(scene, pipeline.mesh(), &solved.radiosity);
+    let found = radiosity_table(scene, pipeline.mesh(), &solved.light.radiosity);
     table_errors(scene, &found, 12)
 }
 
@@ -25,15 +25,10 @@ pub fn table_errors(scene: &Scene, found: &Table, n: u32) -> Errors {
     errors[errors.len() - 1].1
 }
 
-/// The errors of a picture against the reference, over one region or a run of them: `"0-2"` is
-/// away from edges.
-pub fn picture_errors(found: &Image, region: &str) -> Errors {
-    let errors = compare_pictures(
-        found,
-        &radiance(PixelFilter::Tents),
-        Some(&regions()),
-        EXPOSURE,
-    );
+/// The errors of a picture by a filter against the reference, over one region or a run of them:
+/// `"0-2"` is away from edges.
+pub fn picture_errors(found: &Image, filter: PixelFilter, region: &str) -> Errors {
+    let errors = compare_pictures(found, &radiance(filter), Some(&regions()), EXPOSURE);
     let errors = errors.unwrap_or_else(|error| panic!("{error}"));
     let of_region = errors.iter().find(|(name, _)| name == region);
     of_region.expect("the map has this region").1

@@ -20,6 +20,7 @@ pub fn radiance(filter: PixelFilter) -> Decoded {
     let name = match filter {
         PixelFilter::Tents => "cornell-radiance-course-filter.exr",
         PixelFilter::Box => "cornell-radiance-box.exr",
+        other => panic!("there is no picture by {other:?}"),
     };
     let linear = Screen {
         exposure: 1.0,

@@ -78,6 +78,21 @@ impl Camera {
         Ray::new(self.position, direction)
     }
 
+    /// Where the pinhole is.
+    pub fn position(&self) -> DVec3 {
+        self.position
+    }
+
+    /// The direction of the ray through a place of the film of a picture with so many pixels, as
+    /// `film[0] + x film[1] + y film[2]`; `x` and `y` are in pixels from the top left corner.
+    /// Directions are as long as in [`Camera::ray`].
+    pub fn film(&self, width: u32, height: u32) -> [DVec3; 3] {
+        let pixel = self.film_height / f64::from(height);
+        let (across, down) = (pixel * self.right, -pixel * self.up);
+        let middle = 0.5 * (f64::from(width) * across + f64::from(height) * down);
+        [self.forward - middle, across, down]
+    }
+
     /// The view depth at which visible things begin, in scene units.
     pub fn near(&self) -> f64 {
         self.near

@@ -1,11 +1,13 @@
 //! Where the samples of a picture's pixels lie.
 
+mod mitchell;
+
 use crate::camera::Camera;
 use crate::ray::Ray;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
-/// How samples are spread around the parts of a pixel; all have equal weight.
+/// How samples are spread around a pixel, and how they count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum PixelFilter {
@@ -15,6 +17,11 @@ pub enum PixelFilter {
     Tents,
     /// Evenly over each part, and so over the pixel and nothing else.
     Box,
+    /// A tent of half-width one pixel.
+    Tent,
+    /// Mitchell & Netravali's cubic with B = C = 1/3, of half-width two pixels ("Reconstruction
+    /// Filters in Computer Graphics", SIGGRAPH 1988). Some of its samples count negatively.
+    Mitchell,
 }
 
 /// The pixels of a picture, each of `subpixels x subpixels` parts with samples of their own.
@@ -36,24 +43,45 @@ impl Film {
         self.subpixels * self.subpixels
     }
 
-    /// The camera's ray through a sample of a part of the pixel in column `x` and row `y`;
-    /// `uniform` is a random point of the unit square.
-    pub fn ray(&self, camera: &Camera, x: u32, y: u32, part: u32, uniform: DVec2) -> Ray {
-        let pixel = DVec2::new(f64::from(x), f64::from(y));
-        let size = DVec2::new(f64::from(self.width), f64::from(self.height));
-        let place = (pixel + self.offset(part, uniform)) / size;
-        camera.ray(place.x, place.y, size.x / size.y)
+    /// How far samples lie from the centre of their pixel at most, along either axis.
+    pub fn reach(&self) -> f64 {
+        match self.filter {
+            PixelFilter::Tents => 0.5 + 0.5 / f64::from(self.subpixels),
+            PixelFilter::Box => 0.5,
+            PixelFilter::Tent => 1.0,
+            PixelFilter::Mitchell => mitchell::HALF_WIDTH,
+        }
     }
 
-    /// The place of a sample of a part, in pixels from the pixel's top left corner.
-    fn offset(&self, part: u32, uniform: DVec2) -> DVec2 {
+    /// The camera's ray through a sample of a part of the pixel in column `x` and row `y`, and how
+    /// often it counts; `uniform` is a random point of the unit square.
+    pub fn ray(&self, camera: &Camera, x: u32, y: u32, part: u32, uniform: DVec2) -> (Ray, f64) {
+        let pixel = DVec2::new(f64::from(x), f64::from(y));
+        let size = DVec2::new(f64::from(self.width), f64::from(self.height));
+        let (offset, weight) = self.sample(part, uniform);
+        let place = (pixel + offset) / size;
+        (camera.ray(place.x, place.y, size.x / size.y), weight)
+    }
+
+    /// The place of a sample of a part, in pixels from the pixel's top left corner, and how often it
+    /// counts: once on average.
+    pub fn sample(&self, part: u32, uniform: DVec2) -> (DVec2, f64) {
         let (row, column) = (part / self.subpixels, part % self.subpixels);
         let corner = DVec2::new(f64::from(column), f64::from(row));
-        let in_part = match self.filter {
-            PixelFilter::Tents => 0.5 + DVec2::new(tent(uniform.x), tent(uniform.y)),
-            PixelFilter::Box => uniform,
-        };
-        (corner + in_part) / f64::from(self.subpixels)
+        let in_pixel = |in_part: DVec2| (corner + in_part) / f64::from(self.subpixels);
+        let place = in_pixel(uniform);
+        match self.filter {
+            PixelFilter::Tents => {
+                let in_part = 0.5 + DVec2::new(tent(uniform.x), tent(uniform.y));
+                (in_pixel(in_part), 1.0)
+            }
+            PixelFilter::Box => (place, 1.0),
+            PixelFilter::Tent => (0.5 + DVec2::new(tent(place.x), tent(place.y)), 1.0),
+            PixelFilter::Mitchell => {
+                let [(x, of_x), (y, of_y)] = [place.x, place.y].map(mitchell::sample);
+                (0.5 + DVec2::new(x, y), of_x * of_y)
+            }
+        }
     }
 }
 
@@ -70,7 +98,7 @@ fn tent(uniform: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Support and variance by the midpoint rule over a fine grid of uniform points.
+    /// Support, and moments of second order, by the midpoint rule over a fine grid of uniform points.
     fn moments(filter: PixelFilter) -> (DVec2, DVec2, DVec2) {
         let film = Film {
             width: 1,
@@ -81,17 +109,22 @@ mod tests {
         let steps = 400;
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         let (mut sum, mut squares, mut count) = (DVec2::ZERO, DVec2::ZERO, 0.0);
+        let mut weights = 0.0;
         for part in 0..film.parts() {
             for k in 0..steps * steps {
                 let cell = DVec2::new(f64::from(k % steps), f64::from(k / steps));
-                let offset = film.offset(part, (cell + 0.5) / f64::from(steps));
+                let (offset, weight) = film.sample(part, (cell + 0.5) / f64::from(steps));
                 (low, high) = (low.min(offset), high.max(offset));
-                sum += offset;
-                squares += (offset - 0.5) * (offset - 0.5);
+                sum += weight * offset;
+                squares += weight * (offset - 0.5) * (offset - 0.5);
+                weights += weight;
                 count += 1.0;
             }
         }
-        assert!((sum / count - 0.5).abs().max_element() < 1e-9);
+        assert!((weights / count - 1.0).abs() < 1e-3, "{}", weights / count);
+        assert!((sum / count - 0.5).abs().max_element() < 1e-3);
+        assert!((low - 0.5).abs().max_element() <= film.reach());
+        assert!((high - 0.5).abs().max_element() <= film.reach());
         (low, high, squares / count)
     }
 
@@ -100,8 +133,7 @@ mod tests {
     #[test]
     fn tents_overlap_the_neighbours() {
         let (low, high, variance) = moments(PixelFilter::Tents);
-        assert!(low.cmpge(DVec2::splat(-0.25)).all() && low.max_element() < -0.2);
-        assert!(high.cmple(DVec2::splat(1.25)).all() && high.min_element() > 1.2);
+        assert!(low.max_element() < -0.2 && high.min_element() > 1.2);
         assert!((variance - (1.0 / 16.0 + 1.0 / 24.0)).abs().max_element() < 1.2e-4);
     }
 
@@ -109,8 +141,27 @@ mod tests {
     #[test]
     fn a_box_covers_the_pixel_evenly() {
         let (low, high, variance) = moments(PixelFilter::Box);
-        assert!(low.min_element() > 0.0 && low.max_element() < 0.01);
-        assert!(high.max_element() < 1.0 && high.min_element() > 0.99);
+        assert!(low.max_element() < 0.01 && high.min_element() > 0.99);
         assert!((variance - 1.0 / 12.0).abs().max_element() < 1e-5);
+    }
+
+    /// Variance 1/6.
+    #[test]
+    fn a_tent_reaches_the_neighbours_centres() {
+        let (low, high, variance) = moments(PixelFilter::Tent);
+        assert!(low.max_element() < -0.45 && high.min_element() > 1.45);
+        assert!((variance - 1.0 / 6.0).abs().max_element() < 1.2e-4);
+    }
+
+    /// The cubic with B + 2 C = 1 reproduces lines and, with this B, has the second moment
+    /// `B / 3 = 1/9`: that of its B-spline part.
+    #[test]
+    fn mitchells_filter_counts_what_is_far_negatively() {
+        let (low, high, variance) = moments(PixelFilter::Mitchell);
+        assert!(low.max_element() < -1.0 && high.min_element() > 2.0);
+        assert!(
+            (variance - 1.0 / 9.0).abs().max_element() < 2e-3,
+            "{variance}"
+        );
     }
 }

@@ -22,10 +22,8 @@ impl Mesh {
     /// Where a point of a face lies. A point slightly off the face is taken to its border.
     pub fn locate(&self, id: FaceId, point: DVec3) -> Location {
         let face = &self.faces[id.index()];
-        let (cell, on_face, on_patch) = match face.grid {
-            Grid::Quad { a, b } => locate_on_quad(face, point, a, b),
-            Grid::Triangle { n } => locate_on_triangle(face, point, n),
-        };
+        let on_face = face.coordinates(point);
+        let (cell, on_patch) = face.grid.cell_at(on_face);
         Location {
             face: id,
             patch: face.first_patch + cell,
@@ -35,17 +33,35 @@ impl Mesh {
     }
 }
 
-fn locate_on_quad(face: &Face, point: DVec3, a: u32, b: u32) -> (usize, DVec2, DVec2) {
-    let uv = inverse_bilinear(&face.polygon, face.normal, point);
+impl Face {
+    /// The face's coordinates of a point on it, as [`Location::on_face`] has them.
+    pub fn coordinates(&self, point: DVec3) -> DVec2 {
+        match self.grid {
+            Grid::Quad { .. } => inverse_bilinear(&self.polygon, self.normal, point),
+            Grid::Triangle { .. } => inverse_barycentric(&self.polygon, self.normal, point),
+        }
+    }
+}
+
+impl Grid {
+    /// The cell at a place on the face, and the place in it. There must be cells.
+    pub fn cell_at(self, on_face: DVec2) -> (usize, DVec2) {
+        match self {
+            Grid::Quad { a, b } => cell_of_quad(on_face, a, b),
+            Grid::Triangle { n } => cell_of_triangle(on_face, n),
+        }
+    }
+}
+
+fn cell_of_quad(uv: DVec2, a: u32, b: u32) -> (usize, DVec2) {
     let scaled = uv * DVec2::new(f64::from(a), f64::from(b));
     let i = (scaled.x as u32).min(a - 1);
     let j = (scaled.y as u32).min(b - 1);
     let in_cell = scaled - DVec2::new(f64::from(i), f64::from(j));
-    ((i * b + j) as usize, uv, in_cell)
+    ((i * b + j) as usize, in_cell)
 }
 
-fn locate_on_triangle(face: &Face, point: DVec3, n: u32) -> (usize, DVec2, DVec2) {
-    let st = inverse_barycentric(&face.polygon, face.normal, point);
+fn cell_of_triangle(st: DVec2, n: u32) -> (usize, DVec2) {
     let scaled = st * f64::from(n);
     let i = (scaled.x as u32).min(n - 1);
     let j = (scaled.y as u32).min(n - 1 - i);
@@ -53,11 +69,11 @@ fn locate_on_triangle(face: &Face, point: DVec3, n: u32) -> (usize, DVec2, DVec2
     // Rows before row i hold 2 (n - k) - 1 cells each, k = 0 .. i.
     let upright = i * (2 * n - i) + 2 * j;
     if rest.x + rest.y <= 1.0 || i + j + 1 >= n {
-        (upright as usize, st, rest)
+        (upright as usize, rest)
     } else {
         // Corners of the inverted cell: (i+1, j), (i+1, j+1), (i, j+1).
         let in_cell = DVec2::new(rest.x + rest.y - 1.0, 1.0 - rest.x);
-        ((upright + 1) as usize, st, in_cell)
+        ((upright + 1) as usize, in_cell)
     }
 }
 

@@ -46,6 +46,14 @@ impl Polygon {
         self.triangle
     }
 
+    /// Whether it is a parallelogram, to the rounding of its coordinates.
+    pub fn is_parallelogram(&self) -> bool {
+        let [a, b, c, d] = self.corners;
+        let largest = self.corners.map(|corner| corner.abs().max_element());
+        let rounding = 8.0 * f64::EPSILON * largest.into_iter().fold(0.0, f64::max);
+        !self.triangle && (a - b + c - d).abs().max_element() <= rounding
+    }
+
     /// Area times unit normal: half the cross product of the diagonals.
     pub fn area_vector(&self) -> DVec3 {
         let [a, b, c, d] = self.corners;

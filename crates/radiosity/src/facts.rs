@@ -11,9 +11,9 @@ pub(crate) const FORM_FACTORS: &str = "form-factors";
 pub(crate) const CLOSURE: &str = "closure";
 pub(crate) const SOLUTION: &str = "solution";
 /// Raise it whenever the layout of [`FactorFacts`] changes: it is part of their keys.
-pub(crate) const FACTORS_VERSION: u32 = 7;
+pub(crate) const FACTORS_VERSION: u32 = 8;
 /// The same for [`SolutionFacts`].
-pub(crate) const SOLUTION_VERSION: u32 = 8;
+pub(crate) const SOLUTION_VERSION: u32 = 9;
 
 /// Beside the matrix of form factors.
 #[derive(Debug, Serialize, Deserialize)]
@@ -34,8 +34,10 @@ pub(crate) struct FactorFacts {
 pub(crate) struct SolutionFacts {
     pub(crate) report: Convergence,
     pub(crate) rows: RowSummary,
-    /// The names of the lights, in the order of their radiosities.
+    /// The names of the lights, in the order of their radiosities. Their direct parts follow.
     pub(crate) lights: Vec<String>,
+    /// Of each patch, the share that can be seen.
+    pub(crate) visible: Vec<f32>,
 }
 
 impl FactorFacts {

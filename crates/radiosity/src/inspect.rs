@@ -123,7 +123,7 @@ impl Inspection {
                 let (facts, values) = artifact.into_values()?;
                 let (report, lights) = (facts.report, facts.lights);
                 inspection.solution = Some(SolutionInspection {
-                    patches: values.as_ref().len() / 3 / lights.len().max(1),
+                    patches: values.as_ref().len() / 6 / lights.len().max(1),
                     lights,
                     sweeps: report.residuals.len(),
                     residual: report.residual,

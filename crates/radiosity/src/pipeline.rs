@@ -10,7 +10,7 @@ use crate::settings;
 use radiosity_cache::{Id, Key, Store};
 use radiosity_form_factors::{self as form_factors, FormFactors};
 use radiosity_geometry::{self as geometry, Mesh};
-use radiosity_renderer::{self as renderer, Fields, Pictures};
+use radiosity_renderer::{self as renderer, Fields, Image, Shading};
 use radiosity_scene::{Material, Mode, Scene};
 
 mod factors;
@@ -46,6 +46,17 @@ pub struct FormFactorsMade {
     pub rows: RowSummary,
     /// Cached or computed.
     pub origin: Origin,
+}
+
+/// What patches shine with, each list indexed by patch.
+#[derive(Clone, Debug)]
+pub struct PatchLight {
+    /// Radiosities, W/m^2 per channel, with the lights as bright as the scene has them.
+    pub radiosity: Vec<[f32; 3]>,
+    /// The part of them that patches reflect of what comes straight from emitters.
+    pub direct: Vec<[f32; 3]>,
+    /// The share of each patch that can be seen.
+    pub visible: Vec<f32>,
 }
 
 impl<'a> Pipeline<'a> {
@@ -102,8 +113,8 @@ impl<'a> Pipeline<'a> {
         &self.mesh
     }
 
-    /// Stage 4: both pictures of radiosities.
-    pub fn pictures(&self, radiosity: &[[f32; 3]]) -> Result<Pictures, Error> {
+    /// Stage 4: a picture of what patches shine with by each of some shadings, in that order.
+    pub fn pictures(&self, light: &PatchLight, shadings: &[Shading]) -> Result<Vec<Image>, Error> {
         let camera = self.scene.camera.as_ref().ok_or(Error::NoCamera)?;
         let params = settings::image_params(self.scene);
         check_image(params.width, params.height)?;
@@ -113,12 +124,14 @@ impl<'a> Pipeline<'a> {
         let fields = Fields {
             emission: &emission,
             reflectance: &reflectance,
-            radiosity,
+            radiosity: &light.radiosity,
+            direct: &light.direct,
+            visible: &light.visible,
         };
         self.observer
             .begin(Stage::Display, u64::from(params.height));
         let advance = |rows| self.observer.advance(rows);
-        let pictures = renderer::render(&self.mesh, &fields, camera, &params, &advance);
+        let pictures = renderer::render(&self.mesh, &fields, camera, &params, shadings, &advance);
         self.observer.end();
         Ok(pictures)
     }

@@ -123,10 +123,10 @@ impl<'a> Tracer<'a> {
         let mut vertices = 0;
         for part in 0..self.film.parts() {
             let uniform = DVec2::new(rng.random(), rng.random());
-            let ray = self.film.ray(self.camera, x, y, part, uniform);
+            let (ray, weight) = self.film.ray(self.camera, x, y, part, uniform);
             let seen = self.world.first_front(&ray, self.camera.near());
             let walk = seen.map_or(Walk::default(), |start| walk(&self.world, start, &mut rng));
-            pixel.add(walk.radiosity.map(|b| b / PI));
+            pixel.add(walk.radiosity.map(|b| weight * b / PI));
             vertices += u64::from(walk.vertices);
         }
         vertices

@@ -4,7 +4,9 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use radiosity_geometry::{Camera, DVec3, Divisions, Mesh, Shape, Surface, subdivide};
-use radiosity_renderer::{Fields, ImageParams, render};
+use radiosity_renderer::{Fields, ImageParams, Shading, render};
+
+const BOTH: [Shading; 2] = [Shading::Constant, Shading::Smooth];
 
 /// The inside of a box, as rectangles or as triangles.
 fn room(triangles: bool) -> Mesh {
@@ -75,9 +77,11 @@ fn pictures(criterion: &mut Criterion) {
             emission: &same,
             reflectance: &same,
             radiosity: &radiosity,
+            direct: &same,
+            visible: &vec![1.0; radiosity.len()],
         };
         group.bench_function(name, |b| {
-            b.iter(|| render(&mesh, &fields, &camera, &params, &|_| ()));
+            b.iter(|| render(&mesh, &fields, &camera, &params, &BOTH, &|_| ()));
         });
     }
     group.finish();

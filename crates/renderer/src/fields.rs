@@ -11,4 +11,9 @@ pub struct Fields<'a> {
     pub reflectance: &'a [Rgb],
     /// Radiosity, W/m^2.
     pub radiosity: &'a [Rgb],
+    /// The part of it that is light straight from emitters, reflected once.
+    pub direct: &'a [Rgb],
+    /// The share of the patch that can be seen, in [0, 1]. The rest, inside of something or
+    /// covered, is taken to be dark.
+    pub visible: &'a [f32],
 }

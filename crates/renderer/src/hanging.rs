@@ -2,7 +2,7 @@
 //! vertices within patch edges of the other. Along a shared edge only the vertices that all
 //! sides have are free; the interpolant is linear between them.
 
-use radiosity_geometry::{Face, Grid, Mesh};
+use radiosity_geometry::{Face, Grid};
 use std::collections::HashMap;
 
 /// A vertex on the straight line between two others.
@@ -17,10 +17,10 @@ pub(crate) struct Hanging {
 
 /// All hanging vertices along edges that faces share. `corners` are the vertices of each patch;
 /// two faces share an edge if its ends are the same vertices.
-pub(crate) fn hanging_vertices(mesh: &Mesh, corners: &[[u32; 4]]) -> Vec<Hanging> {
+pub(crate) fn hanging_vertices(faces: &[&Face], corners: &[[u32; 4]]) -> Vec<Hanging> {
     let mut edges: HashMap<[u32; 2], Vec<Vec<u32>>> = HashMap::new();
     let mut order = Vec::new();
-    for face in &mesh.faces {
+    for face in faces {
         for side in 0..face.polygon.corners().len() {
             let mut line = side_vertices(face, side, corners);
             if line.first() > line.last() {

@@ -1,10 +1,12 @@
 //! The radiosity at any point, from the patches' values.
 
 use crate::Rgb;
-use crate::bicubic::bicubic;
+use crate::bicubic::{Piece, pieces};
+use crate::exposed::{continued, is_exposed};
 use crate::fields::Fields;
 use crate::vertex::VertexValues;
-use radiosity_geometry::{Grid, Location, Mesh};
+use radiosity_geometry::{DVec2, Face, FaceId, Grid, Mesh};
+use radiosity_simd::{Float, LANES, Simd};
 
 /// Degrees between normals below which neighbouring patches are parts of one smooth surface.
 pub const DEFAULT_CREASE_ANGLE: f64 = 30.0;
@@ -12,46 +14,143 @@ pub const DEFAULT_CREASE_ANGLE: f64 = 30.0;
 /// Looks up radiosities at points.
 pub(crate) struct Interpolant<'a> {
     mesh: &'a Mesh,
-    radiosity: &'a [Rgb],
-    /// Whether a face is a grid of its own, not one of many faces of a surface.
-    is_grid: Vec<bool>,
+    /// For each face, where its pieces begin if it is a grid of its own, and not one of many faces
+    /// of a surface.
+    grids: Vec<Option<u32>>,
+    pieces: Vec<Piece>,
     vertices: VertexValues,
 }
 
+/// Points on a face, in its coordinates, and which of them matter.
+#[derive(Clone, Copy)]
+pub(crate) struct Places {
+    pub(crate) face: FaceId,
+    pub(crate) at: [[f64; LANES]; 2],
+    /// The same in space.
+    pub(crate) points: [[f64; LANES]; 3],
+    pub(crate) lanes: u8,
+}
+
+/// Points in a polynomial or a patch each, by its number, and their coordinates there.
+pub(crate) struct Local {
+    number: [u32; LANES],
+    at: [[f32; LANES]; 2],
+}
+
+impl Local {
+    /// Where places lie in the patches of their face.
+    #[inline(always)]
+    pub(crate) fn in_patches(mesh: &Mesh, places: &Places) -> Local {
+        let face = &mesh.faces[places.face.index()];
+        let mut local = Local {
+            number: [0; LANES],
+            at: [[0.0; LANES]; 2],
+        };
+        for lane in 0..LANES {
+            let on_face = DVec2::new(places.at[0][lane], places.at[1][lane]);
+            let (cell, on_patch) = face.grid.cell_at(on_face);
+            local.number[lane] = (face.first_patch + cell) as u32;
+            local.at[0][lane] = on_patch.x as f32;
+            local.at[1][lane] = on_patch.y as f32;
+        }
+        local
+    }
+
+    /// Goes through the numbers: the first of those of the lanes that are left, and the lanes that
+    /// have it.
+    #[inline(always)]
+    pub(crate) fn first_of(&self, rest: u8) -> (usize, u8) {
+        let number = self.number[rest.trailing_zeros() as usize];
+        let mut same = 0;
+        for (lane, other) in self.number.iter().enumerate() {
+            same |= u8::from(*other == number) << lane;
+        }
+        (number as usize, same & rest)
+    }
+}
+
 impl<'a> Interpolant<'a> {
-    pub(crate) fn new(mesh: &'a Mesh, fields: &Fields<'a>, crease_angle: f64) -> Interpolant<'a> {
+    /// Interpolates values of patches.
+    pub(crate) fn new(
+        mesh: &'a Mesh,
+        fields: &Fields<'_>,
+        values: &[Rgb],
+        crease_angle: f64,
+    ) -> Interpolant<'a> {
         let surfaces = mesh.faces.iter().map(|face| face.surface.index());
         let mut faces_of = vec![0; surfaces.clone().max().map_or(0, |last| last + 1)];
-        surfaces.clone().for_each(|surface| faces_of[surface] += 1);
-        let is_grid = |face: &radiosity_geometry::Face| {
-            matches!(face.grid, Grid::Quad { .. }) && faces_of[face.surface.index()] == 1
+        surfaces.for_each(|surface| faces_of[surface] += 1);
+        let mut all = Vec::new();
+        let mut grid = |face: &Face| match face.grid {
+            Grid::Quad { a, b } if faces_of[face.surface.index()] == 1 && !face.is_bare() => {
+                let first = all.len();
+                let of_patches = &values[face.patches()];
+                all.extend(pieces((a, b), |i, j| of_patches[(i * b + j) as usize]));
+                if let Some(continued) = continued(fields, face, values) {
+                    let continued = pieces((a, b), |i, j| continued[(i * b + j) as usize]);
+                    let exposed = face.patches().map(|patch| is_exposed(fields, patch));
+                    let pieces = all[first..].iter_mut().zip(continued).zip(exposed);
+                    pieces
+                        .filter(|(_, is_exposed)| *is_exposed)
+                        .for_each(|((piece, continued), _)| *piece = continued);
+                }
+                Some(first as u32)
+            }
+            _ => None,
         };
+        let grids: Vec<Option<u32>> = mesh.faces.iter().map(&mut grid).collect();
+        let is_grid = |face: FaceId| grids[face.index()].is_some();
         Interpolant {
             mesh,
-            radiosity: fields.radiosity,
-            is_grid: mesh.faces.iter().map(is_grid).collect(),
-            vertices: VertexValues::new(mesh, fields, crease_angle),
+            vertices: VertexValues::new(mesh, (fields, values), crease_angle, &is_grid),
+            grids,
+            pieces: all,
         }
     }
 
-    /// The value of the patch.
-    pub(crate) fn constant(&self, at: &Location) -> Rgb {
-        self.radiosity[at.patch]
+    /// The smooth values at places; never negative, though a bicubic may be.
+    #[inline(always)]
+    pub(crate) fn at<S: Simd>(&self, simd: S, places: &Places) -> [S::F32; 3] {
+        let zero = simd.splat_f32(0.0);
+        let mut values = [zero; 3];
+        let local = Local::in_patches(self.mesh, places);
+        let first_patch = self.mesh.faces[places.face.index()].first_patch;
+        let first_piece = self.grids[places.face.index()];
+        let at = [simd.f32(&local.at[0]), simd.f32(&local.at[1])];
+        let mut rest = places.lanes;
+        while rest != 0 {
+            let (number, same) = local.first_of(rest);
+            let found = match first_piece {
+                Some(first) => {
+                    let piece = &self.pieces[first as usize + number - first_patch];
+                    polynomial(simd, piece, at)
+                }
+                None => {
+                    let is_triangle = self.mesh.patches[number].polygon.is_triangle();
+                    self.vertices.at_lanes(simd, number, is_triangle, at)
+                }
+            };
+            for c in 0..3 {
+                values[c] = found[c].max(zero).select(same, values[c]);
+            }
+            rest &= !same;
+        }
+        values
     }
+}
 
-    /// The smooth value; never negative, though a bicubic may be.
-    pub(crate) fn smooth(&self, at: &Location) -> Rgb {
-        let face = &self.mesh.faces[at.face.index()];
-        let value = match face.grid {
-            Grid::Quad { a, b } if self.is_grid[at.face.index()] => {
-                let cell = |i, j| self.radiosity[face.first_patch + (i * b + j) as usize];
-                bicubic((at.on_face.x, at.on_face.y), (a, b), cell)
+/// A piece at places, by Horner's rule.
+#[inline(always)]
+fn polynomial<S: Simd>(simd: S, piece: &Piece, [s, t]: [S::F32; 2]) -> [S::F32; 3] {
+    let mut values = [simd.splat_f32(0.0); 3];
+    for (c, value) in values.iter_mut().enumerate() {
+        for i in (0..4).rev() {
+            let mut row = simd.splat_f32(piece[4 * i + 3][c]);
+            for j in (0..3).rev() {
+                row = row * t + simd.splat_f32(piece[4 * i + j][c]);
             }
-            _ => {
-                let polygon = &self.mesh.patches[at.patch].polygon;
-                self.vertices.at(polygon, at.patch, at.on_patch)
-            }
-        };
-        value.map(|channel| channel.max(0.0))
+            *value = *value * s + row;
+        }
     }
+    values
 }

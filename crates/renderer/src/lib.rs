@@ -8,12 +8,16 @@
 //! This crate knows nothing of matrices, or of how the radiosities came about.
 
 mod bicubic;
+mod direct;
 mod encode;
+mod exposed;
 mod fields;
 mod hanging;
 mod image;
 mod interpolate;
 mod render;
+mod samples;
+mod shade;
 mod tone;
 mod vertex;
 
@@ -21,7 +25,7 @@ pub use encode::{PictureFormat, encode, encode_pfm};
 pub use fields::Fields;
 pub use image::Image;
 pub use interpolate::DEFAULT_CREASE_ANGLE;
-pub use render::{ImageParams, Pictures, render};
+pub use render::{ImageParams, Shading, render};
 pub use tone::{Picture, ToneMap};
 
 /// Red, green, blue.

@@ -1,12 +1,13 @@
 //! Stage 4: rays from the camera.
 
+use crate::Rgb;
 use crate::fields::Fields;
 use crate::image::Image;
-use crate::interpolate::{DEFAULT_CREASE_ANGLE, Interpolant};
-use crate::{Rgb, add_scaled};
-use radiosity_geometry::{Camera, DVec2, Film, Mesh, Occluders, PixelFilter, Ray};
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64Mcg;
+use crate::interpolate::{DEFAULT_CREASE_ANGLE, Places};
+use crate::samples::SampleSets;
+use crate::shade::{Room, Shader};
+use radiosity_geometry::{Camera, DVec2, DVec3, Film, Mesh, Offsets, PixelFilter, Screen, Seen};
+use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
 use rayon::prelude::*;
 use std::f32::consts::PI;
 
@@ -56,83 +57,169 @@ impl ImageParams {
     }
 }
 
-/// Both pictures of one pass.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Pictures {
+/// How the light on patches is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Shading {
     /// Every patch in its own radiance.
-    pub constant: Image,
+    Constant,
     /// Radiance interpolated smoothly between patches.
-    pub smooth: Image,
+    Smooth,
+    /// Direct light as it is at each sample, and the rest interpolated smoothly.
+    Exact,
 }
 
-/// Renders both pictures. `progress` is told how many further rows are done, from any thread.
+/// Renders a picture by each of some shadings. `progress` is told how many further rows are done,
+/// from any thread.
 pub fn render(
     mesh: &Mesh,
     fields: &Fields<'_>,
     camera: &Camera,
     params: &ImageParams,
+    shadings: &[Shading],
     progress: &(dyn Fn(u64) + Sync),
-) -> Pictures {
+) -> Vec<Image> {
+    let film = params.film();
     let view = View {
+        film: camera.film(film.width, film.height),
+        screen: Screen::new(mesh, camera, (film.width, film.height), film.reach()),
+        shader: Shader::new(mesh, fields, params.crease_angle, shadings),
+        samples: SampleSets::new(&film, params.samples, params.seed),
         mesh,
-        occluders: Occluders::new(mesh),
-        interpolant: Interpolant::new(mesh, fields, params.crease_angle),
         camera,
-        params,
     };
-    let mut constant = Image::black(params.width, params.height);
-    let mut smooth = constant.clone();
-    let width = params.width as usize;
-    let rows = constant.pixels.par_chunks_mut(width);
-    rows.zip(smooth.pixels.par_chunks_mut(width))
-        .enumerate()
-        .for_each(|(y, (constant, smooth))| {
-            for (x, both) in constant.iter_mut().zip(smooth).enumerate() {
-                (*both.0, *both.1) = view.pixel(x as u32, y as u32);
-            }
-            progress(1);
+    let (width, height) = (params.width as usize, params.height as usize);
+    let mut pixels = vec![[0.0; 3]; width * height * shadings.len()];
+    let rows = pixels.par_chunks_mut((width * shadings.len()).max(1));
+    rows.enumerate().for_each(|(y, row)| {
+        dispatch(Row {
+            view: &view,
+            y: y as u32,
+            row,
         });
-    Pictures { constant, smooth }
+        progress(1);
+    });
+    let image = |k: usize| Image {
+        width: params.width,
+        height: params.height,
+        pixels: pixels
+            .iter()
+            .skip(k)
+            .step_by(shadings.len())
+            .copied()
+            .collect(),
+    };
+    (0..shadings.len()).map(image).collect()
 }
 
 struct View<'a> {
     mesh: &'a Mesh,
-    occluders: Occluders,
-    interpolant: Interpolant<'a>,
     camera: &'a Camera,
-    params: &'a ImageParams,
+    /// The directions of rays: [`Camera::film`].
+    film: [DVec3; 3],
+    screen: Screen,
+    shader: Shader<'a>,
+    samples: SampleSets,
+}
+
+/// A row of pixels, each as often as there are shadings.
+struct Row<'a> {
+    view: &'a View<'a>,
+    y: u32,
+    row: &'a mut [Rgb],
+}
+
+impl Kernel for Row<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let (view, mut seen, mut room) = (self.view, Vec::new(), Room::default());
+        let shadings = view.shader.shadings();
+        for (x, pixels) in self.row.chunks_exact_mut(shadings.len()).enumerate() {
+            let pixel = (x as u32, self.y);
+            let samples = view.samples.of_pixel(pixel.0, pixel.1, 0);
+            view.screen.look(simd, pixel, &samples.offsets, &mut seen);
+            for seen in &seen {
+                let group = seen.group as usize;
+                let Some(places) = view.places(simd, pixel, *seen, &samples.offsets[group]) else {
+                    continue;
+                };
+                for (sum, shading) in pixels.iter_mut().zip(shadings) {
+                    let radiosity = view.shader.shade(simd, *shading, &places, &mut room);
+                    add(simd, sum, &radiosity, &samples.weights[group], seen.lanes);
+                }
+            }
+        }
+    }
 }
 
 impl View<'_> {
-    /// The radiance of a pixel, patch-constant and smooth. Its random numbers depend on the
-    /// seed and its position alone.
-    fn pixel(&self, x: u32, y: u32) -> (Rgb, Rgb) {
-        let ImageParams { samples, seed, .. } = *self.params;
-        let stream = (u64::from(y) << 32 | u64::from(x)) ^ seed.rotate_left(17);
-        let mut rng = Pcg64Mcg::seed_from_u64(stream);
-        let film = self.params.film();
-        let count = film.parts() * samples;
-        let weight = 1.0 / (PI * count as f32);
-        let (mut constant, mut smooth) = ([0.0; 3], [0.0; 3]);
-        for index in 0..count {
-            let uniform = DVec2::new(rng.random(), rng.random());
-            let ray = film.ray(self.camera, x, y, index / samples, uniform);
-            if let Some(both) = self.radiosity(&ray) {
-                add_scaled(&mut constant, weight, both.0);
-                add_scaled(&mut smooth, weight, both.1);
-            }
-        }
-        (constant, smooth)
-    }
-
-    /// The radiosities that a ray sees; none on backs and in the background.
-    fn radiosity(&self, ray: &Ray) -> Option<(Rgb, Rgb)> {
-        let near = self.camera.near();
-        let hit = self.occluders.closest_hit(ray, near, f64::INFINITY, None)?;
-        if !hit.front {
+    /// Where on a face the samples of a pixel lie that show it; nowhere if it shows its back, or has
+    /// no patches.
+    #[inline(always)]
+    fn places<S: Simd>(
+        &self,
+        simd: S,
+        (x, y): (u32, u32),
+        seen: Seen,
+        offsets: &Offsets,
+    ) -> Option<Places> {
+        let face = &self.screen.faces[seen.face as usize];
+        let of_mesh = &self.mesh.faces[face.id.index()];
+        if !face.front || of_mesh.is_bare() {
             return None;
         }
-        let at = self.mesh.locate(hit.face, ray.at(hit.t));
-        Some((self.interpolant.constant(&at), self.interpolant.smooth(&at)))
+        let corner = DVec2::new(f64::from(x), f64::from(y));
+        let offset = [
+            simd.widen(simd.f32(&offsets[0])),
+            simd.widen(simd.f32(&offsets[1])),
+        ];
+        let (zero, one) = (simd.splat_f64(0.0), simd.splat_f64(1.0));
+        let w = &face.inverse_depth;
+        let depth = one / w.around(simd, w.at(corner), offset);
+        let mut points = [[0.0; LANES]; 3];
+        for (axis, points) in points.iter_mut().enumerate() {
+            let [origin, across, down] = self.film.map(|direction| direction[axis]);
+            let known = origin + across * corner.x + down * corner.y;
+            let along = simd.splat_f64(known)
+                + offset[0] * simd.splat_f64(across)
+                + offset[1] * simd.splat_f64(down);
+            *points = (simd.splat_f64(self.camera.position()[axis]) + along * depth).lanes();
+        }
+        let mut at = [[0.0; LANES]; 2];
+        if let Some(coordinates) = &face.coordinates {
+            for (at, linear) in at.iter_mut().zip(coordinates) {
+                let coordinate = linear.around(simd, linear.at(corner), offset) * depth;
+                *at = coordinate.max(zero).min(one).lanes();
+            }
+        } else {
+            for lane in 0..LANES {
+                let point = DVec3::from_array(points.map(|axis| axis[lane]));
+                let on_face = of_mesh.coordinates(point);
+                (at[0][lane], at[1][lane]) = (on_face.x, on_face.y);
+            }
+        }
+        Some(Places {
+            face: face.id,
+            at,
+            points,
+            lanes: seen.lanes,
+        })
+    }
+}
+
+/// Adds some samples to a pixel: their radiosities as radiance, by their weights.
+#[inline(always)]
+fn add<S: Simd>(
+    simd: S,
+    pixel: &mut Rgb,
+    radiosity: &[S::F32; 3],
+    weights: &[f32; LANES],
+    lanes: u8,
+) {
+    let weights = simd.f32(weights).select(lanes, simd.splat_f32(0.0));
+    for c in 0..3 {
+        let sum: f32 = (radiosity[c] * weights).lanes().iter().sum();
+        pixel[c] += sum / PI;
     }
 }

@@ -8,16 +8,19 @@
 //! (Thuermer & Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998). That blurs:
 //! the mean of a patch's vertices is no longer the patch's value. What is missing is averaged in
 //! the same way and added back, [`SHARPENING`] times (Van Cittert's iteration, 1931), but never
-//! beyond the values of the patches that meet at the vertex.
+//! beyond the values of the patches that meet at the vertex. Patches that cannot be seen do not count.
 //!
 //! Two patches belong together at a vertex if they have equal emission and reflectance and
 //! their normals differ by less than the crease angle, directly or by way of others there.
 
+use crate::exposed::is_exposed;
 use crate::fields::Fields;
 use crate::hanging::{Hanging, hanging_vertices};
 use crate::{Rgb, add_scaled};
-use radiosity_geometry::{Aabb, DVec2, DVec3, Mesh, Polygon};
+use radiosity_geometry::{Aabb, DVec2, DVec3, Face, FaceId, Mesh, Polygon};
+use radiosity_simd::Simd;
 use std::collections::HashMap;
+use std::ops::{Mul, Sub};
 
 /// Values at the corners of patches.
 pub(crate) struct VertexValues {
@@ -45,11 +48,22 @@ struct Corner {
 }
 
 impl VertexValues {
-    pub(crate) fn new(mesh: &Mesh, fields: &Fields<'_>, crease_angle: f64) -> VertexValues {
+    /// Of all patches but those of the faces to leave out.
+    pub(crate) fn new(
+        mesh: &Mesh,
+        (fields, of_patches): (&Fields<'_>, &[Rgb]),
+        crease_angle: f64,
+        is_left_out: &dyn Fn(FaceId) -> bool,
+    ) -> VertexValues {
         let smallest_cosine = crease_angle.to_radians().cos();
-        let vertices: Vec<Vec<Corner>> = weld(mesh)
+        let faces = (0..mesh.faces.len() as u32).map(FaceId);
+        let faces = faces.filter(|&face| !is_left_out(face));
+        let faces: Vec<&Face> = faces.map(|face| &mesh.faces[face.index()]).collect();
+        let patches: Vec<usize> = faces.iter().flat_map(|face| face.patches()).collect();
+        let vertices: Vec<Vec<Corner>> = weld(mesh, &patches)
             .iter()
             .flat_map(|vertex| groups(mesh, fields, smallest_cosine, vertex))
+            .map(|vertex| without_hidden(fields, vertex))
             .collect();
         let mut corners = vec![[0; 4]; mesh.patches.len()];
         for (id, vertex) in vertices.iter().enumerate() {
@@ -57,15 +71,15 @@ impl VertexValues {
                 corners[corner.patch][corner.index] = id as u32;
             }
         }
-        let hanging = hanging_vertices(mesh, &corners);
-        let averages = vertices.iter().map(|v| average(v, fields.radiosity));
+        let hanging = hanging_vertices(&faces, &corners);
+        let averages = vertices.iter().map(|v| average(v, of_patches));
         let mut result = VertexValues {
             values: averages.collect(),
             corners,
         };
         result.tie(&hanging);
         for _ in 0..SHARPENING {
-            result.sharpen(mesh, fields, &vertices);
+            result.sharpen(mesh, of_patches, (&vertices, &patches));
             result.tie(&hanging);
         }
         result
@@ -79,8 +93,13 @@ impl VertexValues {
         }
     }
 
-    fn sharpen(&mut self, mesh: &Mesh, fields: &Fields<'_>, vertices: &[Vec<Corner>]) {
-        let missing = |patch: usize| {
+    fn sharpen(
+        &mut self,
+        mesh: &Mesh,
+        of_patches: &[Rgb],
+        (vertices, patches): (&[Vec<Corner>], &[usize]),
+    ) {
+        let missing_of = |patch: usize| -> Rgb {
             let polygon = &mesh.patches[patch].polygon;
             let center = if polygon.is_triangle() {
                 1.0 / 3.0
@@ -88,13 +107,17 @@ impl VertexValues {
                 0.5
             };
             let shown = self.at(polygon, patch, DVec2::splat(center));
-            std::array::from_fn(|c| fields.radiosity[patch][c] - shown[c])
+            std::array::from_fn(|c| of_patches[patch][c] - shown[c])
         };
-        let missing: Vec<Rgb> = (0..mesh.patches.len()).map(missing).collect();
+        let mut missing = vec![[0.0; 3]; mesh.patches.len()];
+        patches
+            .iter()
+            .for_each(|&patch| missing[patch] = missing_of(patch));
         for (value, vertex) in self.values.iter_mut().zip(vertices) {
             add_scaled(value, 1.0, average(vertex, &missing));
             for (c, channel) in value.iter_mut().enumerate() {
-                let around = vertex.iter().map(|k| fields.radiosity[k.patch][c]);
+                let around = vertex.iter().filter(|corner| corner.angle > 0.0);
+                let around = around.map(|corner| of_patches[corner.patch][c]);
                 let (low, high) = around.fold((f32::MAX, 0.0), |(low, high): (f32, f32), b| {
                     (low.min(b), high.max(b))
                 });
@@ -104,24 +127,52 @@ impl VertexValues {
     }
 
     /// The value at a point of a patch, given by the patch's own coordinates.
-    pub(crate) fn at(&self, polygon: &Polygon, patch: usize, at: DVec2) -> Rgb {
-        let (s, t) = (at.x as f32, at.y as f32);
-        let weights = if polygon.is_triangle() {
-            [1.0 - s - t, s, t, 0.0]
-        } else {
-            let (p, q) = (1.0 - s, 1.0 - t);
-            [p * q, s * q, s * t, p * t]
-        };
+    fn at(&self, polygon: &Polygon, patch: usize, at: DVec2) -> Rgb {
+        let weights = weights(at.x as f32, at.y as f32, [0.0, 1.0], polygon.is_triangle());
         let mut value = [0.0; 3];
         for (weight, vertex) in weights.into_iter().zip(self.corners[patch]) {
             add_scaled(&mut value, weight, self.values[vertex as usize]);
         }
         value
     }
+
+    /// The same at eight points.
+    #[inline(always)]
+    pub(crate) fn at_lanes<S: Simd>(
+        &self,
+        simd: S,
+        patch: usize,
+        is_triangle: bool,
+        [s, t]: [S::F32; 2],
+    ) -> [S::F32; 3] {
+        let numbers = [simd.splat_f32(0.0), simd.splat_f32(1.0)];
+        let weights = weights(s, t, numbers, is_triangle);
+        let mut value = [simd.splat_f32(0.0); 3];
+        for (weight, vertex) in weights.iter().zip(&self.corners[patch]) {
+            for (value, of_vertex) in value.iter_mut().zip(&self.values[*vertex as usize]) {
+                *value = *value + *weight * simd.splat_f32(*of_vertex);
+            }
+        }
+        value
+    }
 }
 
-/// The corners of all patches, by the vertex they share.
-fn weld(mesh: &Mesh) -> Vec<Vec<Corner>> {
+/// The weights of the corners at a point; on triangles, the last one has none.
+#[inline(always)]
+fn weights<F>(s: F, t: F, [zero, one]: [F; 2], is_triangle: bool) -> [F; 4]
+where
+    F: Copy + Sub<Output = F> + Mul<Output = F>,
+{
+    let (p, q) = (one - s, one - t);
+    if is_triangle {
+        [p - t, s, t, zero]
+    } else {
+        [p * q, s * q, s * t, p * t]
+    }
+}
+
+/// The corners of patches, by the vertex they share.
+fn weld(mesh: &Mesh, patches: &[usize]) -> Vec<Vec<Corner>> {
     let corners = mesh.faces.iter().flat_map(|f| f.polygon.corners());
     let bounds = Aabb::around(corners.copied());
     let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
@@ -132,8 +183,8 @@ fn weld(mesh: &Mesh) -> Vec<Vec<Corner>> {
         positions: Vec::new(),
     };
     let mut corners: Vec<Vec<Corner>> = Vec::new();
-    for (patch, p) in mesh.patches.iter().enumerate() {
-        let points = p.polygon.corners();
+    for &patch in patches {
+        let points = mesh.patches[patch].polygon.corners();
         for (index, &point) in points.iter().enumerate() {
             let vertex = vertices.find_or_add(point);
             corners.resize_with(vertices.positions.len(), Vec::new);
@@ -223,6 +274,16 @@ fn groups(
         groups.push(merged);
     }
     groups
+}
+
+/// Has patches that cannot be seen not count, as long as there are others.
+fn without_hidden(fields: &Fields<'_>, mut vertex: Vec<Corner>) -> Vec<Corner> {
+    let is_hidden = |corner: &Corner| !is_exposed(fields, corner.patch);
+    if !vertex.iter().all(is_hidden) {
+        let hidden = vertex.iter_mut().filter(|corner| is_hidden(corner));
+        hidden.for_each(|corner| corner.angle = 0.0);
+    }
+    vertex
 }
 
 /// The average over the patches at a vertex, weighted by angle.

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use radiosity_geometry::{Camera, DVec3, Divisions, Mesh, PolygonMesh, Shape, Surface, subdivide};
-use radiosity_renderer::{Fields, ImageParams, Pictures, render};
+use radiosity_renderer::{Fields, Image, ImageParams, Shading, render};
 use std::f32::consts::PI;
 
 fn cut(shapes: Vec<Shape>, divisions: u32) -> Mesh {
@@ -25,7 +25,7 @@ fn two_triangles() -> Vec<Shape> {
 }
 
 /// The view of a square region of the plane z = 0 from above it, one sample a pixel.
-fn view(mesh: &Mesh, fields: &Fields<'_>, center: DVec3, height: f64, pixels: u32) -> Pictures {
+fn view(mesh: &Mesh, fields: &Fields<'_>, center: DVec3, height: f64, pixels: u32) -> [Image; 2] {
     let distance = 10.0;
     let fov = 2.0 * (0.5 * height / distance).atan().to_degrees();
     let from = center + distance * DVec3::Z;
@@ -37,7 +37,9 @@ fn view(mesh: &Mesh, fields: &Fields<'_>, center: DVec3, height: f64, pixels: u3
         samples: 1,
         ..ImageParams::default()
     };
-    render(mesh, fields, &camera, &params, &|_| ())
+    let shadings = [Shading::Constant, Shading::Smooth];
+    let pictures = render(mesh, fields, &camera, &params, &shadings, &|_| ());
+    pictures.try_into().expect("a picture for each shading")
 }
 
 /// Fields with equal materials everywhere.
@@ -47,6 +49,8 @@ fn with_fields<T>(radiosity: &[[f32; 3]], f: impl FnOnce(&Fields<'_>) -> T) -> T
         emission: &same,
         reflectance: &same,
         radiosity,
+        direct: &same,
+        visible: &vec![1.0; radiosity.len()],
     })
 }
 
@@ -56,7 +60,7 @@ fn radiance_is_radiosity_over_pi_on_fronts_and_nothing_on_backs() {
     for (corners, expected) in [([a, b, c, d], 2.0 / PI), ([d, c, b, a], 0.0)] {
         let mesh = cut(vec![Shape::Quad(corners)], 3);
         let pictures = with_fields(&[[2.0; 3]; 9], |f| view(&mesh, f, DVec3::ZERO, 0.5, 4));
-        for picture in [&pictures.constant, &pictures.smooth] {
+        for picture in &pictures {
             let off = |pixel: &[f32; 3]| pixel.iter().any(|x| (x - expected).abs() > 1e-6);
             assert!(!picture.pixels.iter().any(off));
         }
@@ -69,7 +73,7 @@ fn the_picture_is_upright_and_not_mirrored() {
     let mesh = cut(vec![Shape::Quad([a, b, c, d])], 2);
     // Cells in row order: (left, bottom), (left, top), (right, bottom), (right, top).
     let radiosity = [1.0, 2.0, 3.0, 4.0].map(|x| [x * PI; 3]);
-    let picture = with_fields(&radiosity, |f| view(&mesh, f, DVec3::ZERO, 0.9, 40)).constant;
+    let picture = with_fields(&radiosity, |f| view(&mesh, f, DVec3::ZERO, 0.9, 40))[0].clone();
     let at = |x: usize, y: usize| picture.pixels[y * 40 + x][0].round();
     assert_eq!(
         [at(5, 5), at(35, 5), at(5, 35), at(35, 35)],
@@ -91,9 +95,8 @@ fn whatever_lies_before_the_near_distance_is_not_seen() {
             height: 1,
             ..ImageParams::default()
         };
-        with_fields(&radiosity, |f| render(&mesh, f, &camera, &params, &|_| ()))
-            .smooth
-            .pixels[0][0]
+        let look = |f: &Fields<'_>| render(&mesh, f, &camera, &params, &[Shading::Smooth], &|_| ());
+        with_fields(&radiosity, look)[0].pixels[0][0]
     };
     assert!((look(0.0) - 5.0).abs() < 1e-5);
     assert!((look(9.0) - 1.0).abs() < 1e-5);
@@ -116,7 +119,7 @@ fn thread_counts_leave_no_trace() {
 /// Smooth values just left and right of many points of a line, by looking at tiny regions.
 fn jumps_across(mesh: &Mesh, fields: &Fields<'_>, from: DVec3, to: DVec3) -> f32 {
     let across = (to - from).cross(DVec3::Z).normalize();
-    let value = |at: DVec3| view(mesh, fields, at, 1e-9, 1).smooth.pixels[0][0];
+    let value = |at: DVec3| view(mesh, fields, at, 1e-9, 1)[1].pixels[0][0];
     let jump = |k: u32| {
         let at = from.lerp(to, (f64::from(k) + 0.37) / 20.0);
         (value(at + 1e-7 * across) - value(at - 1e-7 * across)).abs()
@@ -187,7 +190,7 @@ fn smooth_values_stay_between_those_of_the_patches() {
     let mesh = cut(two_triangles(), 8);
     let value = |k: usize| if k % 9 < 2 { 30.0 } else { 1.0 };
     let radiosity: Vec<[f32; 3]> = (0..128).map(|k| [value(k); 3]).collect();
-    let smooth = with_fields(&radiosity, |f| view(&mesh, f, DVec3::ZERO, 0.98, 60)).smooth;
+    let smooth = with_fields(&radiosity, |f| view(&mesh, f, DVec3::ZERO, 0.98, 60))[1].clone();
     for pixel in &smooth.pixels {
         let shown = pixel[0] * PI;
         assert!((1.0 - 1e-5..=30.0 + 1e-4).contains(&shown), "{shown}");
@@ -204,7 +207,7 @@ fn shading_does_not_depend_on_where_the_scene_is() {
             _ => unreachable!(),
         };
         let mesh = cut(two_triangles().into_iter().map(moved).collect(), 8);
-        with_fields(&radiosity, |f| view(&mesh, f, shift, 0.9, 40)).smooth
+        with_fields(&radiosity, |f| view(&mesh, f, shift, 0.9, 40))[1].clone()
     };
     let (here, there) = (smooth(DVec3::ZERO), smooth(DVec3::new(1e8, -2e8, 0.0)));
     for (a, b) in here.pixels.iter().zip(&there.pixels) {
@@ -222,9 +225,45 @@ fn slivers_do_no_harm() {
     let faces = vec![vec![0, 1, 2], vec![1, 3, 4]];
     let mesh = cut(vec![Shape::Mesh(PolygonMesh { positions, faces })], 1);
     let center = DVec3::new(1.5, 0.4, 0.0);
-    let picture = with_fields(&[[2.0; 3]; 2], |f| view(&mesh, f, center, 0.2, 8)).smooth;
+    let picture = with_fields(&[[2.0; 3]; 2], |f| view(&mesh, f, center, 0.2, 8))[1].clone();
     for pixel in &picture.pixels {
         assert!((pixel[0] * PI - 2.0).abs() < 1e-5, "{pixel:?}");
+    }
+}
+
+/// What a patch has on its visible part is shown there; and a hidden one is not seen through its
+/// neighbours, on rectangles as on triangles.
+#[test]
+fn hidden_parts_do_not_darken_what_is_seen() {
+    let [a, b, c, d] = square();
+    let shapes = [vec![Shape::Quad([a, b, c, d])], two_triangles()];
+    for mesh in shapes.map(|shapes| cut(shapes, 6)) {
+        let is_inside = |at: DVec3| at.abs().max_element() < 0.17;
+        let share = |patch: usize| {
+            let polygon = &mesh.patches[patch].polygon;
+            let corners = polygon.corners();
+            let inside = corners.iter().filter(|corner| is_inside(**corner)).count();
+            match (inside, is_inside(mesh.patches[patch].centroid)) {
+                (_, true) => 0.0,
+                (0, false) => 1.0,
+                (_, false) => 0.5,
+            }
+        };
+        let visible: Vec<f32> = (0..mesh.patches.len()).map(share).collect();
+        assert!(visible.contains(&0.0) && visible.contains(&1.0));
+        let radiosity: Vec<[f32; 3]> = visible.iter().map(|share| [2.0 * share; 3]).collect();
+        let dark = vec![[0.0; 3]; radiosity.len()];
+        let fields = Fields {
+            emission: &dark,
+            reflectance: &dark,
+            radiosity: &radiosity,
+            direct: &dark,
+            visible: &visible,
+        };
+        let [_, smooth] = view(&mesh, &fields, DVec3::new(0.33, 0.0, 0.0), 0.28, 20);
+        for pixel in &smooth.pixels {
+            assert!((pixel[0] * PI - 2.0).abs() < 1e-5, "{pixel:?}");
+        }
     }
 }
 
@@ -241,6 +280,8 @@ fn materials_and_creases_keep_their_edges() {
         emission: &vec![[0.0; 3]; 128],
         reflectance: &reflectance,
         radiosity: &radiosity,
+        direct: &radiosity,
+        visible: &[1.0; 128],
     };
     let [a, _, c, _] = square();
     let jump = jumps_across(&mesh, &fields, a, c);
@@ -302,7 +343,7 @@ proptest! {
             let mesh = cut(shape, n);
             let radiosity = vec![[value; 3]; mesh.patches.len()];
             let pictures = with_fields(&radiosity, |f| view(&mesh, f, DVec3::ZERO, 0.6, 8));
-            for pixel in &pictures.smooth.pixels {
+            for pixel in &pictures[1].pixels {
                 prop_assert!((pixel[0] * PI / value - 1.0).abs() < 1e-5);
             }
         }

@@ -84,6 +84,16 @@ impl<'a> Problem<'a> {
         self.emission.iter().map(to_f32).collect()
     }
 
+    /// What is reflected of the emission at the first place that it comes to.
+    pub(crate) fn direct(&self) -> Values<f32> {
+        let sums = self.sums(&mut self.emitted());
+        let at = |k: usize| -> Triple<f32> {
+            let (sum, gain) = (joined(&sums, k), &self.gain[k / self.lights()]);
+            std::array::from_fn(|c| (gain[c] * sum[c]) as f32)
+        };
+        (0..self.emission.len()).map(at).collect()
+    }
+
     /// Radiosities in W/m^2, light by light, as the methods see them.
     pub(crate) fn of_lights(&self, lights: &[Vec<Triple<f32>>]) -> Values<f32> {
         assert_eq!(lights.len(), self.lights(), "radiosities of each light");

@@ -8,6 +8,9 @@ pub struct Solution {
     /// Of each light, the radiosity `B` of each patch: radiant exitance in W/m^2 per channel, of
     /// the light as it is stated, undimmed.
     pub lights: Vec<Vec<[f32; 3]>>,
+    /// Of each light, the part of that which each patch reflects of what arrives straight from
+    /// emitters, without any reflection before.
+    pub direct: Vec<Vec<[f32; 3]>>,
     /// The course of the iteration.
     pub report: Convergence,
 }

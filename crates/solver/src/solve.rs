@@ -85,6 +85,7 @@ pub fn solve(
 ) -> Result<Solution, SolveError> {
     diagnosis::check_materials(system)?;
     let problem = Problem::new(system);
+    let direct = problem.to_lights(&problem.direct());
     let x = start.map_or_else(|| problem.emitted(), |start| problem.of_lights(start));
     let mut iteration: Box<dyn Iteration + '_> = match params.method {
         Method::GaussSeidel(relaxation) => Box::new(GaussSeidel::new(&problem, x, relaxation)),
@@ -126,5 +127,6 @@ pub fn solve(
             energies: Energy::of_lights(system, &problem, &x, &sums),
         },
         lights: problem.to_lights(&x),
+        direct,
     })
 }

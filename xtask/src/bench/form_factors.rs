@@ -187,7 +187,7 @@ fn accuracy(scene: &mut Scene, baseline_seconds: f64) -> Result<Vec<Figure>, Err
 /// Of the patches that do not emit.
 fn radiosities(scene: &Scene) -> Result<Vec<[f32; 3]>, Error> {
     let pipeline = Pipeline::new(scene, None, &Silent)?;
-    let radiosity = pipeline.solution(Sources::Cached)?.radiosity;
+    let radiosity = pipeline.solution(Sources::Cached)?.light.radiosity;
     let cells = cells(scene, pipeline.mesh());
     let lit = radiosity
         .into_iter()

@@ -215,7 +215,7 @@ fn previews(scene: &Scene, made: &FormFactors) -> Result<Vec<Figure>, Error> {
         let start = Instant::now();
         let preview = pipeline.preview(percent / 100.0)?;
         let milliseconds = 1e3 * start.elapsed().as_secs_f64();
-        let error = 100.0 * relative_error(&lit(&preview.radiosity), &lit(&truth));
+        let error = 100.0 * relative_error(&lit(&preview.light.radiosity), &lit(&truth));
         let figure = |what: &str, value: f64, unit| {
             let name = format!("solver.{patches}.preview.{percent}.{what}");
             Figure::new(name, Some(value), unit, None)

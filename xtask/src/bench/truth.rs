@@ -6,7 +6,7 @@ use super::{Figure, Target};
 use radiosity::compare::{Decoded, Errors, Table, compare_pictures, compare_tables};
 use radiosity::geometry::Mesh;
 use radiosity::reference::{Tracer, cell_means};
-use radiosity::renderer::Image;
+use radiosity::renderer::{Image, Shading};
 use radiosity::scene::{Mode, Scene, load};
 use radiosity::{Error, Pipeline, Silent, Sources, cells, radiosity_table, reference_table};
 use std::path::Path;
@@ -133,10 +133,10 @@ impl Oracle {
             Err(Error::Unsolvable { .. }) => return Ok(None),
             solved => solved?,
         };
-        let found = radiosity_table(scene, pipeline.mesh(), &solved.radiosity);
+        let found = radiosity_table(scene, pipeline.mesh(), &solved.light.radiosity);
         let all = table_errors(scene, pipeline.mesh(), &found, &self.table)?;
-        let smooth = pipeline.pictures(&solved.radiosity)?.smooth;
-        let squares = picture_rmse(&smooth, &self.picture, scene)?.powi(2);
+        let smooth = pipeline.pictures(&solved.light, &[Shading::Smooth])?;
+        let squares = picture_rmse(&smooth[0], &self.picture, scene)?.powi(2);
         Ok(Some(Accuracy {
             rmse: all.rmse_percent_without_noise(),
             bias: all.bias_percent,

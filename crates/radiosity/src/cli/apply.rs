@@ -1,9 +1,10 @@
 //! Flags override what the scene says.
 
 use super::args::{DisplayArgs, EstimateArgs, ImageArgs, SceneArgs};
-use super::choices::{FilterArg, ModeArg};
+use super::choices::{DirectArg, FilterArg, ModeArg};
 use super::terminal::tell;
 use radiosity_geometry::{Divisions, PixelFilter};
+use radiosity_renderer::Shading;
 use radiosity_scene::{Mode, Scene};
 
 impl SceneArgs {
@@ -52,6 +53,8 @@ impl ImageArgs {
         let filter = self.filter.map(|filter| match filter {
             FilterArg::Tents => PixelFilter::Tents,
             FilterArg::Box => PixelFilter::Box,
+            FilterArg::Tent => PixelFilter::Tent,
+            FilterArg::Mitchell => PixelFilter::Mitchell,
         });
         set(&mut image.filter, filter);
         set(&mut image.exposure, self.exposure);
@@ -63,6 +66,14 @@ impl DisplayArgs {
     pub(crate) fn apply(&self, scene: &mut Scene) {
         self.image.apply(scene);
         set(&mut scene.image.samples, self.samples);
+    }
+
+    /// The pictures that are asked for.
+    pub(crate) fn shadings(&self) -> &'static [Shading] {
+        match self.direct {
+            DirectArg::Patches => &[Shading::Constant, Shading::Smooth],
+            DirectArg::Exact => &[Shading::Exact],
+        }
     }
 }
 

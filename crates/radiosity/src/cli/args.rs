@@ -1,6 +1,6 @@
 //! The command line, as clap reads it.
 
-use super::choices::{ByArg, FilterArg, FormatArg, ModeArg};
+use super::choices::{ByArg, DirectArg, FilterArg, FormatArg, ModeArg};
 use super::light_args::LightArgs;
 use super::parse::{
     parse_counts, parse_csv_path, parse_difference_path, parse_matrix_path, parse_positive,
@@ -130,6 +130,10 @@ pub struct DisplayArgs {
     /// Samples per sub-pixel
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub samples: Option<u32>,
+    /// How light that comes straight from emitters is shown: as patches have it, in a
+    /// patch-constant and a smooth picture, or as it is at every sample, in one picture
+    #[arg(long, value_enum, default_value = "patches")]
+    pub direct: DirectArg,
     /// Folder for the pictures [default: out]
     #[arg(long, short, value_name = "DIR")]
     pub output: Option<PathBuf>,

@@ -33,6 +33,19 @@ pub enum FilterArg {
     Tents,
     /// Evenly over the pixel
     Box,
+    /// A tent around the pixel that reaches the neighbours' centres
+    Tent,
+    /// Mitchell and Netravali's cubic: sharp, without steps
+    Mitchell,
+}
+
+/// How direct light is shown, on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum DirectArg {
+    /// As patches have it
+    Patches,
+    /// In closed form, with exact shadows; the rest is interpolated
+    Exact,
 }
 
 /// File formats on the command line.
@@ -44,6 +57,8 @@ pub enum FormatArg {
     PlainPpm,
     /// Portable network graphics, 8 bit
     Png,
+    /// Portable float map: linear radiance
+    Pfm,
 }
 
 /// [`SolverMethod`](radiosity_scene::SolverMethod) on the command line.

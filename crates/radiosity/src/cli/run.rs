@@ -14,11 +14,11 @@ use super::terminal::{Terminal, tell};
 use crate::artifact::Sources;
 use crate::error::Error;
 use crate::export::radiosity_table;
-use crate::pipeline::Pipeline;
+use crate::pipeline::{PatchLight, Pipeline};
 use crate::plot::convergence_plot;
 use crate::report::{DisplayReport, Report};
 use radiosity_cache::{Store, replace_file_by};
-use radiosity_renderer::{Image, PictureFormat, Pictures, ToneMap, encode};
+use radiosity_renderer::{Image, PictureFormat, Shading, ToneMap, encode, encode_pfm};
 use radiosity_scene::{ImageSettings, Scene};
 use radiosity_simd::InstructionSet;
 use std::collections::BTreeMap;
@@ -70,11 +70,11 @@ fn solve(args: &SolveCommand, site: &Site, sources: Sources) -> Result<(), Error
         let store = store(&args.estimate, site);
         let mut pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
         let mut report = Report::new(&scene, pipeline.mesh(), &terminal);
-        let radiosity = radiosity(&mut pipeline, &args.solve, sources, &mut report)?;
+        let light = light(&mut pipeline, &args.solve, sources, &mut report)?;
         if let Some(path) = &args.export {
             write(
                 path,
-                &radiosity_table(&scene, pipeline.mesh(), &radiosity).to_csv(),
+                &radiosity_table(&scene, pipeline.mesh(), &light.radiosity).to_csv(),
             )?;
             report.output("export", path);
         }
@@ -104,10 +104,12 @@ fn display(args: &DisplayCommand, site: &Site) -> Result<(), Error> {
         let store = store(&args.estimate, site);
         let mut pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
         let mut report = Report::new(&scene, pipeline.mesh(), &terminal);
-        let radiosity = radiosity(&mut pipeline, &args.solve, Sources::Cached, &mut report)?;
+        let light = light(&mut pipeline, &args.solve, Sources::Cached, &mut report)?;
         let start = Instant::now();
-        let pictures = pipeline.pictures(&radiosity)?;
-        let outputs = save(&pictures, &scene, &args.display, folder)?;
+        let shadings = args.display.shadings();
+        let pictures = pipeline.pictures(&light, shadings)?;
+        let named = shadings.iter().map(|shading| name_of(*shading));
+        let outputs = save(named.zip(&pictures), &scene, &args.display, folder)?;
         report.display(DisplayReport {
             seconds: start.elapsed().as_secs_f64(),
         });
@@ -118,25 +120,25 @@ fn display(args: &DisplayCommand, site: &Site) -> Result<(), Error> {
     })
 }
 
-/// The radiosities, with each stage reported as soon as it is done.
-fn radiosity(
+/// What patches shine with, with each stage reported as soon as it is done.
+fn light(
     pipeline: &mut Pipeline<'_>,
     args: &SolveArgs,
     sources: Sources,
     report: &mut Report<'_>,
-) -> Result<Vec<[f32; 3]>, Error> {
+) -> Result<PatchLight, Error> {
     if let Some(percent) = args.preview {
         let start = Instant::now();
         let preview = pipeline.preview(percent / 100.0)?;
         report.preview(&preview, start.elapsed());
-        return Ok(preview.radiosity);
+        return Ok(preview.light);
     }
     args.start(pipeline)?;
     let solved = pipeline.solution_after(sources, &mut |origin, rows| {
         report.form_factors(origin, rows, pipeline);
     })?;
     report.solution(&solved);
-    Ok(solved.radiosity)
+    Ok(solved.light)
 }
 
 pub(super) fn store(args: &EstimateArgs, site: &Site) -> Option<Store> {
@@ -184,24 +186,31 @@ pub(super) fn make_folder(folder: &Path) -> Result<(), Error> {
     })
 }
 
-/// Writes both pictures in all formats; returns the name and path of each file. The first
-/// format's files are called `constant` and `smooth`, others have the format appended.
-fn save(
-    pictures: &Pictures,
+/// How the pictures by a shading are called.
+fn name_of(shading: Shading) -> &'static str {
+    match shading {
+        Shading::Constant => "constant",
+        Shading::Smooth => "smooth",
+        Shading::Exact => "exact",
+    }
+}
+
+/// Writes pictures in all formats; returns the name and path of each file. The first format's files
+/// are called as the pictures, others have the format appended.
+fn save<'a>(
+    pictures: impl Iterator<Item = (&'static str, &'a Image)>,
     scene: &Scene,
     args: &DisplayArgs,
     folder: &Path,
 ) -> Result<BTreeMap<String, PathBuf>, Error> {
     let mut outputs = BTreeMap::new();
-    for (kind, image) in [
-        ("constant", &pictures.constant),
-        ("smooth", &pictures.smooth),
-    ] {
+    for (kind, image) in pictures {
         for (index, format) in args.format.iter().enumerate() {
             let (label, ending) = match format {
                 FormatArg::Ppm => ("ppm", "ppm"),
                 FormatArg::PlainPpm => ("plain_ppm", "plain.ppm"),
                 FormatArg::Png => ("png", "png"),
+                FormatArg::Pfm => ("pfm", "pfm"),
             };
             let path = folder.join(format!("{}-{kind}.{ending}", scene.name));
             write(&path, &encoded(image, &scene.image, *format))?;
@@ -228,6 +237,7 @@ fn encoded(image: &Image, settings: &ImageSettings, format: FormatArg) -> Vec<u8
         FormatArg::Ppm => PictureFormat::Ppm,
         FormatArg::PlainPpm => PictureFormat::PlainPpm,
         FormatArg::Png => PictureFormat::Png { gamma },
+        FormatArg::Pfm => return encode_pfm(image),
     };
     encode(&picture, format)
 }

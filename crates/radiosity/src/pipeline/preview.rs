@@ -1,6 +1,6 @@
 //! A first picture, from a few rows of the form factors.
 
-use super::Pipeline;
+use super::{PatchLight, Pipeline};
 use crate::error::Error;
 use crate::observer::Stage;
 use crate::settings;
@@ -12,9 +12,8 @@ use std::collections::BTreeMap;
 
 /// Radiosities that were not waited for.
 pub struct Preview {
-    /// The radiosity of each patch, W/m^2 per channel, with the lights as bright as the scene has
-    /// them.
-    pub radiosity: Vec<[f32; 3]>,
+    /// What patches shine with. Direct light is not known apart, nor what is hidden.
+    pub light: PatchLight,
     /// The share of all pairs of patches that were looked at.
     pub share: f64,
     /// The share of the lights' power that was not followed further, and shows as an even glow.
@@ -73,7 +72,11 @@ impl Pipeline<'_> {
         }
         self.observer.end();
         Ok(Preview {
-            radiosity: light.lights().concat(),
+            light: PatchLight {
+                radiosity: light.lights().concat(),
+                direct: vec![[0.0; 3]; areas.len()],
+                visible: vec![1.0; areas.len()],
+            },
             share: ((rows.len() * areas.len()) as f64 / pairs).min(1.0),
             unshot: light.unshot(),
         })

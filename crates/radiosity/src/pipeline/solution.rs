@@ -1,6 +1,6 @@
 //! Stage 3 of the chain: the radiosities that each light makes, and their sum.
 
-use super::Pipeline;
+use super::{PatchLight, Pipeline};
 use crate::artifact::{Origin, Recipe, Sources, obtain, usable};
 use crate::error::Error;
 use crate::facts::{self, SOLUTION, SolutionFacts};
@@ -17,9 +17,8 @@ use std::time::Instant;
 pub struct Solved {
     /// The artifact: each light undimmed.
     pub solution: Solution,
-    /// The radiosity of each patch, W/m^2 per channel, with the lights as bright as the scene has
-    /// them.
-    pub radiosity: Vec<[f32; 3]>,
+    /// What patches shine with.
+    pub light: PatchLight,
     /// The power balance with those lights.
     pub energy: Energy,
     /// Cached or computed.
@@ -97,23 +96,25 @@ impl Pipeline<'_> {
                 start = Instant::now();
                 let solution = self.solve(&made.form_factors)?;
                 made_from = Some(made.origin);
+                let rows = made.form_factors.rows.iter();
                 let facts = SolutionFacts {
                     report: solution.report.clone(),
                     rows: made.rows,
                     lights: self.light_names(),
+                    visible: rows.map(|row| row.visible as f32).collect(),
                 };
-                let values = solution.lights.concat();
+                let values = [solution.lights.concat(), solution.direct.concat()].concat();
                 let write = |store: &Store| {
                     let written = store.write(&id, &facts, values.as_flattened());
                     usable(written, self.observer, &id).is_some()
                 };
                 let is_cached = store.is_some_and(write);
-                Ok(((solution, made.rows), is_cached))
+                Ok(((solution, facts.rows, facts.visible), is_cached))
             },
         };
-        let ((solution, rows), mut origin) =
+        let ((solution, rows, visible), mut origin) =
             obtain(self.cache, self.observer, &id, sources, recipe)?;
-        origin.bytes = 12 * (solution.lights.len() * self.mesh.patches.len()) as u64;
+        origin.bytes = 24 * (solution.lights.len() * self.mesh.patches.len()) as u64;
         origin.seconds = start.elapsed().as_secs_f64();
         let form_factors = made_from.unwrap_or_else(|| {
             let untouched = self.untouched_form_factors();
@@ -121,7 +122,11 @@ impl Pipeline<'_> {
             untouched
         });
         Ok(Solved {
-            radiosity: self.dimmed(&solution.lights),
+            light: PatchLight {
+                radiosity: self.dimmed(&solution.lights),
+                direct: self.dimmed(&solution.direct),
+                visible,
+            },
             energy: solution.energy(&settings::dimming(self.scene)),
             start_worth: self
                 .start
@@ -147,18 +152,20 @@ impl Pipeline<'_> {
         lights.map(|light| light.name.clone()).collect()
     }
 
-    fn stored_solution(&self, store: &Store, id: &Id<'_>) -> Result<(Solution, RowSummary), Miss> {
+    fn stored_solution(&self, store: &Store, id: &Id<'_>) -> Result<Stored, Miss> {
         let artifact = store.read::<SolutionFacts>(id)?;
         let (facts, values) = artifact.into_values()?;
-        let lights = by_light(values.as_ref(), self.lights.len()).ok_or(Miss::Header)?;
-        if lights
-            .iter()
-            .any(|light| light.len() != self.mesh.patches.len())
-        {
+        let (lights, direct) = by_light(values.as_ref(), self.lights.len()).ok_or(Miss::Header)?;
+        let patches = self.mesh.patches.len();
+        if lights.iter().any(|light| light.len() != patches) || facts.visible.len() != patches {
             return Err(Miss::Header);
         }
-        let report = facts.report;
-        Ok((Solution { lights, report }, facts.rows))
+        let solution = Solution {
+            lights,
+            direct,
+            report: facts.report,
+        };
+        Ok((solution, facts.rows, facts.visible))
     }
 
     fn solution_id(&self) -> Id<'_> {
@@ -256,11 +263,12 @@ impl Start {
             .and_then(radiosity_cache::Artifact::into_values)
             .map_err(|miss| unusable(&miss))?;
         let lights = by_light(values.as_ref(), facts.lights.len());
+        let (lights, _) = lights.ok_or_else(|| unusable(&Miss::Header))?;
         Ok(Start {
             key,
             residuals: facts.report.residuals,
             names: facts.lights,
-            lights: lights.ok_or_else(|| unusable(&Miss::Header))?,
+            lights,
         })
     }
 
@@ -274,11 +282,22 @@ impl Start {
     }
 }
 
-/// The radiosities of so many lights, one after the other, if they are as many.
-fn by_light(values: &[f32], lights: usize) -> Option<Vec<Vec<[f32; 3]>>> {
+/// A solution, the rows behind it, and the visible share of each patch.
+type Stored = (Solution, RowSummary, Vec<f32>);
+/// Of each light, a value of each patch.
+type ByLight = Vec<Vec<[f32; 3]>>;
+
+/// The radiosities of so many lights one after the other, and then their direct parts, if they are
+/// as many.
+fn by_light(values: &[f32], lights: usize) -> Option<(ByLight, ByLight)> {
     let (triples, rest) = values.as_chunks::<3>();
-    let fits = rest.is_empty() && triples.len().is_multiple_of(lights.max(1));
-    let patches = (triples.len() / lights.max(1)).max(1);
-    let found: Vec<Vec<[f32; 3]>> = triples.chunks(patches).map(<[_]>::to_vec).collect();
-    (fits && found.len() == lights).then_some(found)
+    let parts = (2 * lights).max(1);
+    let fits = rest.is_empty() && triples.len().is_multiple_of(parts);
+    let patches = (triples.len() / parts).max(1);
+    let mut found: ByLight = triples.chunks(patches).map(<[_]>::to_vec).collect();
+    if !fits || found.len() != 2 * lights {
+        return None;
+    }
+    let direct = found.split_off(lights);
+    Some((found, direct))
 }

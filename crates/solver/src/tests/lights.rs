@@ -98,6 +98,25 @@ fn starts_that_do_not_fit_are_not_believed() {
     }
 }
 
+/// Light is reflected once by `rho F E`.
+#[test]
+fn direct_light_is_reflected_once() {
+    let mut case = two_lights();
+    case.lights[0][3] = [0.0; 3];
+    let solution = case.solve(&Params::default());
+    assert_eq!(solution.direct.len(), case.lights.len());
+    for (direct, light) in solution.direct.iter().zip(&case.lights) {
+        for (i, found) in direct.iter().enumerate() {
+            let irradiance = irradiance(&case, i, light);
+            for c in 0..3 {
+                let expected = case.reflectance[i][c] * irradiance[c];
+                // Single precision, and that of sums.
+                assert!((f64::from(found[c]) - expected).abs() <= 1e-6 * expected);
+            }
+        }
+    }
+}
+
 #[test]
 fn no_light_is_dark() {
     let mut case = two_lights();

@@ -1,0 +1,240 @@
+//! Light that comes straight from emitters, at any point: in closed form, and where something
+//! stands in the way, of what of the emitter is left beside it.
+//!
+//! An emitter is a convex polygon of even exitance `M`. A point with the form factor `F` to it has
+//! the irradiance `M F` (Cohen & Wallace 1993, section 4.4). What blocks is convex too, so its
+//! shadow on the emitter is what lies in a cone; cut out of the emitter, it leaves convex pieces.
+//! No sample is taken, and nothing is noisy: penumbrae are exact.
+
+mod pieces;
+
+use crate::Rgb;
+use crate::fields::Fields;
+pub(crate) use pieces::Cutting;
+use pieces::form_factor;
+use radiosity_geometry::{DVec3, FaceId, Mesh, Occluders, Polygon};
+use radiosity_simd::{Float, LANES, Simd, angle};
+use std::f64::consts::TAU;
+use std::sync::OnceLock;
+
+/// All emitters, and what stands before them.
+pub(crate) struct DirectLight<'a> {
+    mesh: &'a Mesh,
+    occluders: Occluders,
+    emitters: Vec<Emitter>,
+    /// For each patch, once it is asked for, how each emitter stands to it.
+    of_patches: Vec<OnceLock<Vec<Standing>>>,
+}
+
+struct Emitter {
+    face: FaceId,
+    polygon: Polygon,
+    normal: DVec3,
+    exitance: Rgb,
+}
+
+/// How an emitter stands to a patch.
+enum Standing {
+    /// It shines elsewhere, or hides behind the horizon.
+    Away,
+    /// Seen whole from every point of the patch.
+    Clear,
+    /// Partly below the horizon, or with faces in the way.
+    Cut(Vec<FaceId>),
+}
+
+/// Eight points of a patch.
+pub(crate) struct Points<F> {
+    pub(crate) patch: usize,
+    pub(crate) at: [F; 3],
+    pub(crate) lanes: u8,
+}
+
+impl<'a> DirectLight<'a> {
+    pub(crate) fn new(mesh: &'a Mesh, fields: &Fields<'_>) -> DirectLight<'a> {
+        let ids = (0..mesh.faces.len() as u32).map(FaceId);
+        let emitter = |id: FaceId| {
+            let face = &mesh.faces[id.index()];
+            let exitance = face.patches().next().map(|patch| fields.emission[patch]);
+            let exitance = exitance.filter(|exitance| *exitance != [0.0; 3])?;
+            Some(Emitter {
+                face: id,
+                polygon: face.polygon,
+                normal: face.normal,
+                exitance,
+            })
+        };
+        DirectLight {
+            mesh,
+            occluders: Occluders::new(mesh),
+            emitters: ids.filter_map(emitter).collect(),
+            of_patches: mesh.patches.iter().map(|_| OnceLock::new()).collect(),
+        }
+    }
+
+    /// The irradiance at points of a patch.
+    #[inline(always)]
+    pub(crate) fn irradiance<S: Simd>(
+        &self,
+        simd: S,
+        points: &Points<S::F64>,
+        room: &mut Cutting,
+    ) -> [S::F32; 3] {
+        let standings = self.of_patches[points.patch].get_or_init(|| self.stand(points.patch));
+        let mut sums = [simd.splat_f32(0.0); 3];
+        for (emitter, standing) in self.emitters.iter().zip(standings) {
+            let factors = match standing {
+                Standing::Away => continue,
+                Standing::Clear => {
+                    let normal = self.mesh.patches[points.patch].normal;
+                    simd.narrow(clear_factors(simd, emitter, points, normal))
+                }
+                Standing::Cut(blockers) => {
+                    simd.f32(&self.cut_factors(emitter, blockers, points, room))
+                }
+            };
+            for (sum, exitance) in sums.iter_mut().zip(&emitter.exitance) {
+                *sum = *sum + factors * simd.splat_f32(*exitance);
+            }
+        }
+        sums
+    }
+
+    /// How each emitter stands to a patch.
+    fn stand(&self, patch: usize) -> Vec<Standing> {
+        self.emitters
+            .iter()
+            .map(|emitter| self.standing(emitter, patch))
+            .collect()
+    }
+
+    fn standing(&self, emitter: &Emitter, patch: usize) -> Standing {
+        let patch = &self.mesh.patches[patch];
+        let tolerance = self.occluders.plane_tolerance();
+        let heights = |points: &[DVec3], normal: DVec3, foot: DVec3| -> [f64; 2] {
+            let heights = points.iter().map(|point| normal.dot(*point - foot));
+            heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], h| {
+                [low.min(h), high.max(h)]
+            })
+        };
+        let own = patch.polygon.corners();
+        let lamp = emitter.polygon.corners();
+        let over_patch = heights(lamp, patch.normal, patch.centroid);
+        let over_lamp = heights(own, emitter.normal, lamp[0]);
+        let is_away =
+            emitter.face == patch.face || over_patch[1] <= tolerance || over_lamp[1] <= tolerance;
+        if is_away {
+            return Standing::Away;
+        }
+        let ends = [patch.polygon.bounds(), emitter.polygon.bounds()];
+        let all = self.occluders.between(ends, usize::MAX).unwrap_or_default();
+        let is_between = |face: &FaceId| {
+            let corners = self.mesh.faces[face.index()].polygon;
+            let corners = corners.corners();
+            *face != patch.face
+                && *face != emitter.face
+                && heights(corners, patch.normal, patch.centroid)[1] > tolerance
+                && heights(corners, emitter.normal, lamp[0])[1] > tolerance
+        };
+        let blockers: Vec<FaceId> = all.into_iter().filter(is_between).collect();
+        if blockers.is_empty() && over_patch[0] >= 0.0 && over_lamp[0] > tolerance {
+            Standing::Clear
+        } else {
+            Standing::Cut(blockers)
+        }
+    }
+
+    /// The form factors of points to what is left of an emitter.
+    fn cut_factors<F: Float<f64>>(
+        &self,
+        emitter: &Emitter,
+        blockers: &[FaceId],
+        points: &Points<F>,
+        room: &mut Cutting,
+    ) -> [f32; LANES] {
+        let at = [
+            points.at[0].lanes(),
+            points.at[1].lanes(),
+            points.at[2].lanes(),
+        ];
+        let normal = self.mesh.patches[points.patch].normal;
+        let mut factors = [0.0; LANES];
+        for (lane, factor) in factors.iter_mut().enumerate() {
+            if points.lanes >> lane & 1 != 0 {
+                let at = DVec3::from_array(at.map(|axis| axis[lane]));
+                *factor = self.cut_factor(emitter, blockers, (at, normal), room) as f32;
+            }
+        }
+        factors
+    }
+
+    fn cut_factor(
+        &self,
+        emitter: &Emitter,
+        blockers: &[FaceId],
+        (at, normal): (DVec3, DVec3),
+        room: &mut Cutting,
+    ) -> f64 {
+        let corners = emitter.polygon.padded_corners().map(|corner| corner - at);
+        let distance = emitter.normal.dot(corners[0]);
+        if distance >= 0.0 {
+            return 0.0;
+        }
+        let count = emitter.polygon.corners().len();
+        room.begin(&corners[..count], normal);
+        for &blocker in blockers {
+            let face = &self.mesh.faces[blocker.index()];
+            let corners = face.polygon.padded_corners().map(|corner| corner - at);
+            let height = -face.normal.dot(corners[0]);
+            if height.abs() > self.occluders.plane_tolerance() {
+                let count = face.polygon.corners().len();
+                let plane = (emitter.normal, distance);
+                room.cut_out(&corners[..count], height > 0.0, plane);
+            }
+        }
+        let factors = room.pieces.iter().map(|piece| form_factor(piece, normal));
+        factors.sum()
+    }
+}
+
+/// The form factors of points to an emitter that all of them see whole; see [`form_factor`].
+#[inline(always)]
+fn clear_factors<S: Simd>(
+    simd: S,
+    emitter: &Emitter,
+    points: &Points<S::F64>,
+    normal: DVec3,
+) -> S::F64 {
+    let corners = emitter.polygon.corners();
+    let mut sum = simd.splat_f64(0.0);
+    let mut from = towards(simd, corners[corners.len() - 1], points);
+    for &corner in corners {
+        let to = towards(simd, corner, points);
+        let cross = [
+            from[1] * to[2] - from[2] * to[1],
+            from[2] * to[0] - from[0] * to[2],
+            from[0] * to[1] - from[1] * to[0],
+        ];
+        let normal = normal.to_array().map(|axis| simd.splat_f64(axis));
+        let length = dot(&cross, &cross).sqrt();
+        sum = sum + angle(simd, length, dot(&from, &to)) / length * dot(&cross, &normal);
+        from = to;
+    }
+    sum * simd.splat_f64(-1.0 / TAU)
+}
+
+/// The directions from points to a corner.
+#[inline(always)]
+fn towards<S: Simd>(simd: S, corner: DVec3, points: &Points<S::F64>) -> [S::F64; 3] {
+    let [x, y, z] = &points.at;
+    [
+        simd.splat_f64(corner.x) - *x,
+        simd.splat_f64(corner.y) - *y,
+        simd.splat_f64(corner.z) - *z,
+    ]
+}
+
+#[inline(always)]
+fn dot<F: Float<f64>>(a: &[F; 3], b: &[F; 3]) -> F {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
