@@ -2,7 +2,7 @@
 
 use radiosity::cache::Store;
 use radiosity::geometry::{Camera, DVec3, Divisions};
-use radiosity::scene::{Material, Mode, Scene};
+use radiosity::scene::{Exposure, Material, Mode, Scene};
 use radiosity::solver::Solution;
 use radiosity::{How, Observer, Pipeline, Silent, Solved, Sources, Stage};
 use radiosity_tests::{BOTH, shipped};
@@ -132,7 +132,10 @@ fn the_first_run_computes_and_the_second_does_not() {
 #[test]
 fn pictures_depend_on_no_artifact_key() {
     assert_eq!(Bench::after(|s| s.image.width = 99), none());
-    assert_eq!(Bench::after(|s| s.image.exposure = 2.0), none());
+    assert_eq!(
+        Bench::after(|s| s.image.exposure = Exposure::Factor(2.0)),
+        none()
+    );
     assert_eq!(Bench::after(|s| s.image.samples = 1), none());
     let camera = Camera::new(DVec3::ZERO, DVec3::Z, DVec3::Y, 40.0, 0.0).unwrap();
     assert_eq!(Bench::after(|s| s.camera = Some(camera)), none());

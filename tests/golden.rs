@@ -5,7 +5,7 @@
 //! enlarged differences around grey) in `target/golden/`.
 
 use radiosity::geometry::Divisions;
-use radiosity::renderer::{Picture, PictureFormat, ToneMap, encode};
+use radiosity::renderer::{Picture, PictureFormat, ToneMap, Transfer, encode};
 use radiosity_tests::{BOTH, in_checkout, pipeline, shipped, solve};
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use std::path::Path;
 /// powers of the mathematics library may differ in their last digit and flip a rounding.
 const TOLERANCE: i32 = 1;
 
-const GAMMA: f64 = 2.2;
+const TRANSFER: Transfer = Transfer::Gamma(2.2);
 
 fn check(scene: &str, divisions: u32, points: u32) {
     let mut scene = shipped(scene);
@@ -23,10 +23,8 @@ fn check(scene: &str, divisions: u32, points: u32) {
     let pipeline = pipeline(&scene);
     let light = &solve(&pipeline).light;
     let pictures = pipeline.pictures(light, &BOTH).unwrap();
-    let tone = ToneMap {
-        exposure: scene.image.exposure,
-        gamma: GAMMA,
-    };
+    let exposure = scene.image.exposure.factor().unwrap();
+    let tone = ToneMap::clamped(exposure, TRANSFER);
     compare(
         &format!("{}-constant", scene.name),
         &tone.apply(&pictures[0]),
@@ -68,7 +66,7 @@ fn compare(name: &str, got: &Picture) {
 }
 
 fn save(path: &Path, picture: &Picture) {
-    std::fs::write(path, encode(picture, PictureFormat::Png { gamma: GAMMA })).unwrap();
+    std::fs::write(path, encode(picture, PictureFormat::Png(TRANSFER))).unwrap();
 }
 
 fn load(path: &Path) -> Picture {

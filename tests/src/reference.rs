@@ -5,6 +5,7 @@ use radiosity::compare::{
     Decoded, Regions, Screen, Table, decode_picture, decode_regions, parse_table,
 };
 use radiosity::geometry::PixelFilter;
+use radiosity::renderer::Transfer;
 
 fn data(name: &str) -> Vec<u8> {
     std::fs::read(in_checkout(&format!("tests/data/{name}"))).expect("the data is there")
@@ -24,8 +25,8 @@ pub fn radiance(filter: PixelFilter) -> Decoded {
     };
     let linear = Screen {
         exposure: 1.0,
-        gamma: None,
-        usual_gamma: 1.0,
+        transfer: None,
+        usual: Transfer::Gamma(1.0),
     };
     decode_picture(&data(name), &linear).expect("the picture is well-formed")
 }

@@ -1,19 +1,19 @@
 //! Pictures from files' bytes: EXR, PFM, PPM and PNG, as linear radiance.
 
 use crate::portable;
-use radiosity_renderer::Image;
+use radiosity_renderer::{Image, Transfer};
 use std::io::Cursor;
 
 /// How the levels of an 8-bit picture came from radiance:
-/// `level = (exposure * L) ^ (1 / gamma)`, in units of the brightest level.
+/// `level = transfer(exposure * L)`, in units of the brightest level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Screen {
     /// Factor from radiance to brightness.
     pub exposure: f64,
-    /// The exponent, whatever a PNG says of itself.
-    pub gamma: Option<f64>,
-    /// The exponent of pictures that say nothing of themselves.
-    pub usual_gamma: f64,
+    /// The curve, whatever a PNG says of itself.
+    pub transfer: Option<Transfer>,
+    /// The curve of pictures that say nothing of themselves.
+    pub usual: Transfer,
 }
 
 /// A picture as linear radiance.
@@ -43,9 +43,9 @@ pub enum DecodeError {
 
 impl Screen {
     /// Radiance of a level between 0 and 1.
-    fn radiance(&self, level: f64, own_gamma: Option<f64>) -> f32 {
-        let gamma = self.gamma.or(own_gamma).unwrap_or(self.usual_gamma);
-        (level.powf(gamma) / self.exposure) as f32
+    fn radiance(&self, level: f64, own: Option<Transfer>) -> f32 {
+        let transfer = self.transfer.or(own).unwrap_or(self.usual);
+        (transfer.decode(level) / self.exposure) as f32
     }
 }
 
@@ -102,11 +102,12 @@ fn png_levels(bytes: &[u8], screen: &Screen) -> Result<Decoded, DecodeError> {
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(broken)?;
-    let gamma = reader
-        .info()
-        .gamma()
-        .map(|g| 1.0 / f64::from(g.into_value()))
-        .filter(|gamma| gamma.is_finite());
+    let gamma = reader.info().gamma();
+    let gamma = gamma.map(|g| 1.0 / f64::from(g.into_value()));
+    let own = match reader.info().srgb {
+        Some(_) => Some(Transfer::Srgb),
+        None => gamma.filter(|gamma| gamma.is_finite()).map(Transfer::Gamma),
+    };
     let (width, height) = (reader.info().width, reader.info().height);
     check_size("PNG", width.into(), height.into())?;
     let size = reader.output_buffer_size().ok_or(DecodeError::Unknown)?;
@@ -131,7 +132,7 @@ fn png_levels(bytes: &[u8], screen: &Screen) -> Result<Decoded, DecodeError> {
         height,
         pixels: samples.chunks_exact(channels).map(pixel).collect(),
     };
-    Ok(levels.map(|level| screen.radiance(level, gamma)))
+    Ok(levels.map(|level| screen.radiance(level, own)))
 }
 
 fn exr_radiance(bytes: &[u8]) -> Result<Image, DecodeError> {

@@ -5,12 +5,12 @@ use radiosity_compare::{
     Decoded, PictureError, Regions, Screen, compare_pictures, decode_picture, decode_regions,
     difference_picture,
 };
-use radiosity_renderer::{Image, PictureFormat, ToneMap, encode, encode_pfm};
+use radiosity_renderer::{Image, PictureFormat, ToneMap, Transfer, encode, encode_pfm};
 
 const SCREEN: Screen = Screen {
     exposure: 4.0,
-    gamma: None,
-    usual_gamma: 2.2,
+    transfer: None,
+    usual: Transfer::Gamma(2.2),
 };
 
 fn image(width: u32, pixels: Vec<[f32; 3]>) -> Image {
@@ -109,22 +109,23 @@ fn float_maps_come_back_as_they_went() {
 /// a reference is clamped, since it stands for anything above.
 #[test]
 fn levels_become_radiance() {
-    for gamma in [2.2, 1.8] {
+    // The line and the power of sRGB are nowhere steeper than a gamma of 2.4.
+    for (transfer, gamma) in [
+        (Transfer::Gamma(2.2), 2.2),
+        (Transfer::Gamma(1.8), 1.8),
+        (Transfer::Srgb, 2.4),
+    ] {
         let screen = Screen {
-            exposure: 4.0,
-            gamma: Some(gamma),
-            usual_gamma: 2.2,
+            transfer: Some(transfer),
+            ..SCREEN
         };
-        let tone = ToneMap {
-            exposure: 4.0,
-            gamma,
-        };
+        let tone = ToneMap::clamped(4.0, transfer);
         let picture = tone.apply(&ramp());
         let mut decoded = Vec::new();
         for format in [
             PictureFormat::Ppm,
             PictureFormat::PlainPpm,
-            PictureFormat::Png { gamma },
+            PictureFormat::Png(transfer),
         ] {
             decoded.push(decode_picture(&encode(&picture, format), &screen).unwrap());
         }
@@ -150,23 +151,22 @@ fn levels_become_radiance() {
 /// What a PNG says of its gamma counts unless another is stated.
 #[test]
 fn pictures_may_know_their_gamma() {
-    let tone = ToneMap {
-        exposure: 4.0,
-        gamma: 1.0,
-    };
-    let picture = tone.apply(&ramp());
-    let png = encode(&picture, PictureFormat::Png { gamma: 1.0 });
-    let radiance = |gamma| {
-        // What is usual elsewhere does not matter.
-        let screen = Screen {
-            gamma,
-            usual_gamma: 1.7,
-            ..SCREEN
+    for own in [Transfer::Gamma(1.0), Transfer::Srgb] {
+        let picture = ToneMap::clamped(4.0, own).apply(&ramp());
+        let png = encode(&picture, PictureFormat::Png(own));
+        let radiance = |transfer| {
+            // What is usual elsewhere does not matter.
+            let screen = Screen {
+                transfer,
+                usual: Transfer::Gamma(1.7),
+                ..SCREEN
+            };
+            decode_picture(&png, &screen).unwrap().image.pixels[1][0]
         };
-        decode_picture(&png, &screen).unwrap().image.pixels[1][0]
-    };
-    assert!((radiance(None) - 0.03).abs() < 1e-3);
-    assert!((radiance(Some(2.2)) - 0.12f32.powf(2.2) / 4.0).abs() < 1e-3);
+        assert!((radiance(None) - 0.03).abs() < 1e-3);
+        let other = Transfer::Gamma(2.2).decode(f64::from(own.encode(0.12))) / 4.0;
+        assert!((f64::from(radiance(Some(Transfer::Gamma(2.2)))) - other).abs() < 1e-3);
+    }
 }
 
 #[test]
@@ -174,8 +174,8 @@ fn two_bytes_a_sample_are_read() {
     let wide = b"P6 # a comment\n1 1\n1000\n\x03\xe8\x01\xf4\x00\x00";
     let linear = Screen {
         exposure: 1.0,
-        gamma: Some(1.0),
-        usual_gamma: 2.2,
+        transfer: Some(Transfer::Gamma(1.0)),
+        ..SCREEN
     };
     let decoded = decode_picture(wide, &linear).unwrap();
     assert_eq!(decoded.image.pixels, [[1.0, 0.5, 0.0]]);
@@ -224,8 +224,8 @@ proptest! {
     /// Nor does a good picture with some bytes changed.
     #[test]
     fn damage_is_survived(damage in prop::collection::vec((any::<u16>(), any::<u8>()), 1..4)) {
-        let picture = ToneMap { exposure: 1.0, gamma: 2.0 }.apply(&ramp());
-        let mut png = encode(&picture, PictureFormat::Png { gamma: 2.0 });
+        let picture = ToneMap::clamped(1.0, Transfer::Gamma(2.0)).apply(&ramp());
+        let mut png = encode(&picture, PictureFormat::Png(Transfer::Gamma(2.0)));
         for (at, byte) in damage {
             let length = png.len();
             png[usize::from(at) % length] = byte;

@@ -1,8 +1,10 @@
 //! From the settings of a scene to the parameters of the stages.
 
 use radiosity_form_factors::Estimator;
-use radiosity_renderer::ImageParams;
-use radiosity_scene::{Automatic, Light, Mode, Relaxation, Scene, SolverMethod};
+use radiosity_renderer::{self as renderer, Curve, ImageParams, ToneMap, Transfer};
+use radiosity_scene::{
+    Automatic, Gamma, ImageSettings, Light, Mode, Relaxation, Scene, SolverMethod, Standard, Tone,
+};
 use radiosity_solver as solver;
 
 pub(crate) fn estimator(scene: &Scene) -> Estimator {
@@ -51,6 +53,34 @@ pub(crate) fn image_params(scene: &Scene) -> ImageParams {
         filter: image.filter,
         samples: image.samples,
         seed: image.seed,
-        ..ImageParams::default()
+        crease_angle: image.crease_angle,
+    }
+}
+
+/// Of pixels that are not black, so many are less bright than a screen by the automatic exposure.
+const AUTOMATIC_PERCENTILE: f64 = 0.98;
+
+pub(crate) fn tone_map(image: &ImageSettings) -> ToneMap {
+    ToneMap {
+        exposure: match image.exposure.factor() {
+            Some(factor) => renderer::Exposure::Fixed(factor),
+            None => renderer::Exposure::Automatic {
+                percentile: AUTOMATIC_PERCENTILE,
+            },
+        },
+        curve: match image.tone {
+            Tone::Clamp => Curve::Clamp,
+            Tone::Reinhard => Curve::Reinhard,
+            Tone::Filmic => Curve::Filmic,
+        },
+        transfer: transfer(image.gamma),
+        dither: image.dither,
+    }
+}
+
+pub(crate) fn transfer(gamma: Gamma) -> Transfer {
+    match gamma {
+        Gamma::Exponent(gamma) => Transfer::Gamma(gamma),
+        Gamma::Named(Standard::Srgb) => Transfer::Srgb,
     }
 }

@@ -1,7 +1,7 @@
 //! Pictures as files' bytes.
 
 use crate::image::Image;
-use crate::tone::Picture;
+use crate::tone::{DeepPicture, Picture, Transfer};
 
 /// File formats for 8-bit pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,11 +10,8 @@ pub enum PictureFormat {
     PlainPpm,
     /// Portable pixmap, bytes (P6).
     Ppm,
-    /// Portable network graphics. Its gamma chunk records the picture's gamma.
-    Png {
-        /// The exponent that the picture was made for.
-        gamma: f64,
-    },
+    /// Portable network graphics, which records the curve that the picture was made for.
+    Png(Transfer),
 }
 
 /// The bytes of a file that holds the picture.
@@ -22,8 +19,22 @@ pub fn encode(picture: &Picture, format: PictureFormat) -> Vec<u8> {
     match format {
         PictureFormat::PlainPpm => plain_ppm(picture),
         PictureFormat::Ppm => ppm(picture),
-        PictureFormat::Png { gamma } => png(picture, gamma),
+        PictureFormat::Png(transfer) => {
+            let size = (picture.width, picture.height);
+            png(size, &picture.bytes, png::BitDepth::Eight, transfer)
+        }
     }
+}
+
+/// The bytes of a PNG of 16 bits, which records the curve that the picture was made for.
+pub fn encode_deep_png(picture: &DeepPicture, transfer: Transfer) -> Vec<u8> {
+    let data: Vec<u8> = picture
+        .levels
+        .iter()
+        .flat_map(|level| level.to_be_bytes())
+        .collect();
+    let size = (picture.width, picture.height);
+    png(size, &data, png::BitDepth::Sixteen, transfer)
 }
 
 /// The bytes of a portable float map (PF): linear radiance, 32-bit, little endian, rows from the
@@ -57,15 +68,25 @@ fn ppm(picture: &Picture) -> Vec<u8> {
     [header("P6", picture).as_bytes(), &picture.bytes].concat()
 }
 
-fn png(picture: &Picture, gamma: f64) -> Vec<u8> {
+fn png(
+    (width, height): (u32, u32),
+    data: &[u8],
+    depth: png::BitDepth,
+    transfer: Transfer,
+) -> Vec<u8> {
     let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, picture.width, picture.height);
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_source_gamma(png::ScaledFloat::new((1.0 / gamma) as f32));
+    encoder.set_depth(depth);
+    match transfer {
+        Transfer::Gamma(gamma) => {
+            encoder.set_source_gamma(png::ScaledFloat::new((1.0 / gamma) as f32));
+        }
+        Transfer::Srgb => encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual),
+    }
     let mut writer = encoder.write_header().expect("memory takes all bytes");
     writer
-        .write_image_data(&picture.bytes)
+        .write_image_data(data)
         .expect("the size is that of the picture");
     writer.finish().expect("memory takes all bytes");
     bytes
@@ -107,12 +128,28 @@ mod tests {
 
     #[test]
     fn png_holds_the_picture_and_its_gamma() {
-        let bytes = encode(&sample(), PictureFormat::Png { gamma: 2.0 });
+        let bytes = encode(&sample(), PictureFormat::Png(Transfer::Gamma(2.0)));
         let decoder = png::Decoder::new(std::io::Cursor::new(bytes));
         let mut reader = decoder.read_info().unwrap();
         assert_eq!(reader.info().gamma().unwrap().into_value(), 0.5);
         let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
         reader.next_frame(&mut pixels).unwrap();
         assert_eq!(pixels, sample().bytes);
+    }
+
+    #[test]
+    fn deep_png_holds_every_level_and_says_that_it_is_srgb() {
+        let picture = DeepPicture {
+            width: 1,
+            height: 1,
+            levels: vec![0, 258, 65535],
+        };
+        let bytes = encode_deep_png(&picture, Transfer::Srgb);
+        let decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+        let mut reader = decoder.read_info().unwrap();
+        assert!(reader.info().srgb.is_some());
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut pixels).unwrap();
+        assert_eq!(pixels, [0, 0, 1, 2, 255, 255]);
     }
 }

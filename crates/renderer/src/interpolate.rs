@@ -8,9 +8,6 @@ use crate::vertex::VertexValues;
 use radiosity_geometry::{DVec2, Face, FaceId, Grid, Mesh};
 use radiosity_simd::{Float, LANES, Simd};
 
-/// Degrees between normals below which neighbouring patches are parts of one smooth surface.
-pub const DEFAULT_CREASE_ANGLE: f64 = 30.0;
-
 /// Looks up radiosities at points.
 pub(crate) struct Interpolant<'a> {
     mesh: &'a Mesh,

@@ -21,12 +21,11 @@ mod shade;
 mod tone;
 mod vertex;
 
-pub use encode::{PictureFormat, encode, encode_pfm};
+pub use encode::{PictureFormat, encode, encode_deep_png, encode_pfm};
 pub use fields::Fields;
 pub use image::Image;
-pub use interpolate::DEFAULT_CREASE_ANGLE;
 pub use render::{ImageParams, Shading, render};
-pub use tone::{Picture, ToneMap};
+pub use tone::{Curve, DeepPicture, Exposure, Picture, ToneMap, Transfer};
 
 /// Red, green, blue.
 pub type Rgb = [f32; 3];

@@ -3,7 +3,7 @@
 use crate::Rgb;
 use crate::fields::Fields;
 use crate::image::Image;
-use crate::interpolate::{DEFAULT_CREASE_ANGLE, Places};
+use crate::interpolate::Places;
 use crate::samples::SampleSets;
 use crate::shade::{Room, Shader};
 use radiosity_geometry::{Camera, DVec2, DVec3, Film, Mesh, Offsets, PixelFilter, Screen, Seen};
@@ -41,7 +41,7 @@ impl Default for ImageParams {
             filter: PixelFilter::default(),
             samples: 4,
             seed: 0,
-            crease_angle: DEFAULT_CREASE_ANGLE,
+            crease_angle: 30.0,
         }
     }
 }

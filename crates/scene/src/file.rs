@@ -1,9 +1,10 @@
 //! The tables of a scene file, as they are written.
 
 use crate::camera::CameraTable;
+use crate::image::ImageTable;
 use crate::light::LightTable;
 use crate::material::MaterialTable;
-use crate::settings::{DiscretizationTable, FormFactorTable, ImageTable, SolverTable};
+use crate::settings::{DiscretizationTable, FormFactorTable, SolverTable};
 use crate::surface::SurfaceTable;
 use serde::Deserialize;
 use std::collections::BTreeMap;

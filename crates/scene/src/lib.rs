@@ -8,6 +8,7 @@
 
 mod camera;
 mod file;
+mod image;
 mod light;
 mod material;
 mod mesh;
@@ -22,11 +23,10 @@ mod vs3;
 #[cfg(test)]
 mod tests;
 
+pub use image::{Exposure, Gamma, ImageSettings, Standard, Tone};
 pub use light::{Light, MOST_DIMMING};
 pub use material::Material;
 pub use scene::{Scene, load, parse};
-pub use settings::{
-    Automatic, FormFactorSettings, ImageSettings, Mode, Relaxation, SolverMethod, SolverSettings,
-};
+pub use settings::{Automatic, FormFactorSettings, Mode, Relaxation, SolverMethod, SolverSettings};
 pub use source::{SceneError, suggestion};
 pub use surface::Surface;

@@ -2,9 +2,10 @@
 
 use crate::camera::camera;
 use crate::file::SceneFile;
+use crate::image::ImageSettings;
 use crate::light::{Light, keep_used, lights};
 use crate::material::{Material, materials};
-use crate::settings::{FormFactorSettings, ImageSettings, SolverSettings};
+use crate::settings::{FormFactorSettings, SolverSettings};
 use crate::source::{Complaint, SceneError, Source};
 use crate::surface::{Context, Surface};
 use crate::vs3;

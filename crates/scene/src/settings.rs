@@ -1,31 +1,10 @@
-//! `[image]`, `[discretization]`, `[form_factors]`, `[solver]`: defaults that flags override.
+//! `[discretization]`, `[form_factors]`, `[solver]`: defaults that flags override.
 
 use crate::source::{SceneError, Source};
 use crate::values::{Counts, divisions, require};
-use radiosity_geometry::{Divisions, PixelFilter};
+use radiosity_geometry::Divisions;
 use serde::Deserialize;
 use toml::Spanned;
-
-/// The picture.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ImageSettings {
-    /// Pixels across.
-    pub width: u32,
-    /// Pixels down.
-    pub height: u32,
-    /// Sub-pixels along each edge of a pixel.
-    pub subpixels: u32,
-    /// How samples are spread around sub-pixels.
-    pub filter: PixelFilter,
-    /// Samples per sub-pixel.
-    pub samples: u32,
-    /// Radiance is multiplied by this; what then exceeds 1 is clamped.
-    pub exposure: f64,
-    /// Displayed values are the 1/gamma-th power.
-    pub gamma: f64,
-    /// Seed of the positions of samples.
-    pub seed: u64,
-}
 
 /// The form factor stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,19 +88,6 @@ const DEFAULT_TOLERANCE: f64 = 5e-4;
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct ImageTable {
-    width: Option<Spanned<u32>>,
-    height: Option<Spanned<u32>>,
-    subpixels: Option<Spanned<u32>>,
-    filter: Option<PixelFilter>,
-    samples: Option<Spanned<u32>>,
-    exposure: Option<Spanned<f64>>,
-    gamma: Option<Spanned<f64>>,
-    seed: Option<u64>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(crate) struct DiscretizationTable {
     divisions: Option<Spanned<Counts>>,
     max_patch_edge: Option<Spanned<f64>>,
@@ -149,7 +115,7 @@ pub(crate) struct SolverTable {
 }
 
 /// The value of an optional entry within a range, or its default.
-fn value_or<T: Copy>(
+pub(crate) fn value_or<T: Copy>(
     source: &Source<'_>,
     entry: Option<&Spanned<T>>,
     default: T,
@@ -161,51 +127,6 @@ fn value_or<T: Copy>(
     };
     require(source, entry, |&value| holds(value), what, range)?;
     Ok(*entry.get_ref())
-}
-
-impl ImageTable {
-    pub(crate) fn check(&self, source: &Source<'_>) -> Result<ImageSettings, SceneError> {
-        let size = |entry: &Option<_>, default, what| {
-            let limits = (what, "between 1 and 65536");
-            value_or(
-                source,
-                entry.as_ref(),
-                default,
-                |n| (1..=1 << 16).contains(&n),
-                limits,
-            )
-        };
-        let count = |entry: &Option<_>, default, what| {
-            let limits = (what, "between 1 and 64");
-            value_or(
-                source,
-                entry.as_ref(),
-                default,
-                |n| (1..=64).contains(&n),
-                limits,
-            )
-        };
-        let positive = |entry: &Option<_>, default, what| {
-            let limits = (what, "a positive number");
-            value_or(
-                source,
-                entry.as_ref(),
-                default,
-                |x: f64| x > 0.0 && x.is_finite(),
-                limits,
-            )
-        };
-        Ok(ImageSettings {
-            width: size(&self.width, 640, "`width`")?,
-            height: size(&self.height, 480, "`height`")?,
-            subpixels: count(&self.subpixels, 2, "`subpixels`")?,
-            filter: self.filter.unwrap_or_default(),
-            samples: count(&self.samples, 4, "`samples`")?,
-            exposure: positive(&self.exposure, 1.0, "`exposure`")?,
-            gamma: positive(&self.gamma, 2.2, "`gamma`")?,
-            seed: self.seed.unwrap_or(0),
-        })
-    }
 }
 
 impl DiscretizationTable {

@@ -2,7 +2,7 @@
 
 mod meshes;
 
-use crate::{Automatic, Mode, Relaxation, Scene, SolverMethod, parse};
+use crate::{Automatic, Exposure, Gamma, Mode, Relaxation, Scene, SolverMethod, Tone, parse};
 use proptest::prelude::*;
 use radiosity_geometry::{Divisions, Shape, SurfaceId};
 use std::fmt::Write;
@@ -69,7 +69,10 @@ fn what_is_not_said_has_defaults() {
     assert_eq!(scene.divisions, Divisions::uniform(12));
     assert_eq!((scene.image.width, scene.image.height), (640, 480));
     assert_eq!((scene.image.subpixels, scene.image.samples), (2, 4));
-    assert_eq!((scene.image.exposure, scene.image.gamma), (1.0, 2.2));
+    assert_eq!(scene.image.exposure, Exposure::Factor(1.0));
+    assert_eq!(scene.image.gamma, Gamma::Exponent(2.2));
+    assert_eq!((scene.image.tone, scene.image.dither), (Tone::Clamp, false));
+    assert_eq!(scene.image.crease_angle, 30.0);
     assert_eq!(
         (scene.form_factors.mode, scene.form_factors.points),
         (Mode::Accurate, 3)
@@ -172,6 +175,10 @@ fn mistakes_are_explained() {
         ("vertical_fov = 40", "vertical_fov = 180"),
         ("[camera]", "[image]\nwidth = 0\n[camera]"),
         ("[camera]", "[image]\nexposure = -1\n[camera]"),
+        ("[camera]", "[image]\nexposure = \"bright\"\n[camera]"),
+        ("[camera]", "[image]\ngamma = \"rgb\"\n[camera]"),
+        ("[camera]", "[image]\ntone = \"film\"\n[camera]"),
+        ("[camera]", "[image]\ncrease_angle = 200\n[camera]"),
         ("[camera]", "[form_factors]\nmode = \"reguler\"\n[camera]"),
         ("[camera]", "[solver]\ntolerance = 0\n[camera]"),
         ("[camera]", "[camra]"),

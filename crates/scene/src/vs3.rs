@@ -11,9 +11,10 @@ mod read;
 #[cfg(test)]
 mod tests;
 
+use crate::image::ImageTable;
 use crate::material::Material;
 use crate::scene::Scene;
-use crate::settings::{FormFactorTable, ImageTable, SolverTable};
+use crate::settings::{FormFactorTable, SolverTable};
 use crate::source::{Complaint, SceneError, Source};
 use crate::surface::Surface;
 use radiosity_geometry::{self as geometry, DVec3, Divisions, Shape};

@@ -188,7 +188,12 @@ fn decoded(image: Image) -> Decoded {
 
 /// Over the pixels that the reference shows unclamped, in percent of their mean.
 fn picture_rmse(found: &Image, reference: &Decoded, scene: &Scene) -> Result<f64, Error> {
-    let errors = compare_pictures(found, reference, None, scene.image.exposure);
+    let errors = compare_pictures(
+        found,
+        reference,
+        None,
+        scene.image.exposure.factor().unwrap_or(0.0),
+    );
     let errors = errors.map_err(|error| Error::Input(error.to_string()))?;
     Ok(errors[errors.len() - 1].1.rmse_percent)
 }

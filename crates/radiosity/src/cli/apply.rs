@@ -1,11 +1,11 @@
 //! Flags override what the scene says.
 
 use super::args::{DisplayArgs, EstimateArgs, ImageArgs, SceneArgs};
-use super::choices::{DirectArg, FilterArg, ModeArg};
+use super::choices::{DirectArg, FilterArg, ModeArg, ToneArg};
 use super::terminal::tell;
 use radiosity_geometry::{Divisions, PixelFilter};
 use radiosity_renderer::Shading;
-use radiosity_scene::{Mode, Scene};
+use radiosity_scene::{Mode, Scene, Tone};
 
 impl SceneArgs {
     pub(crate) fn apply(&self, scene: &mut Scene) {
@@ -58,7 +58,14 @@ impl ImageArgs {
         });
         set(&mut image.filter, filter);
         set(&mut image.exposure, self.exposure);
+        let tone = self.tone.map(|tone| match tone {
+            ToneArg::Clamp => Tone::Clamp,
+            ToneArg::Reinhard => Tone::Reinhard,
+            ToneArg::Filmic => Tone::Filmic,
+        });
+        set(&mut image.tone, tone);
         set(&mut image.gamma, self.gamma);
+        image.dither |= self.dither;
     }
 }
 
@@ -66,6 +73,7 @@ impl DisplayArgs {
     pub(crate) fn apply(&self, scene: &mut Scene) {
         self.image.apply(scene);
         set(&mut scene.image.samples, self.samples);
+        set(&mut scene.image.crease_angle, self.crease_angle);
     }
 
     /// The pictures that are asked for.

@@ -1,13 +1,15 @@
 //! The command line, as clap reads it.
 
-use super::choices::{ByArg, DirectArg, FilterArg, FormatArg, ModeArg};
+use super::choices::{ByArg, DirectArg, FilterArg, FormatArg, ModeArg, ToneArg};
 use super::light_args::LightArgs;
 use super::parse::{
-    parse_counts, parse_csv_path, parse_difference_path, parse_matrix_path, parse_positive,
-    parse_row_tolerance, parse_size, parse_svg_path, parse_threshold,
+    parse_angle, parse_counts, parse_csv_path, parse_difference_path, parse_exposure, parse_gamma,
+    parse_matrix_path, parse_positive, parse_row_tolerance, parse_size, parse_svg_path,
+    parse_threshold,
 };
 use super::solver_args::SolveArgs;
 use clap::{Args, Subcommand};
+use radiosity_scene::{Exposure, Gamma};
 use std::path::PathBuf;
 
 /// The stages, and what helps with them.
@@ -96,7 +98,15 @@ pub struct CacheArgs {
 }
 
 /// The flags of [`ImageArgs`].
-const OF_PICTURES: [&str; 5] = ["size", "subpixels", "filter", "exposure", "gamma"];
+const OF_PICTURES: [&str; 7] = [
+    "size",
+    "subpixels",
+    "filter",
+    "exposure",
+    "tone",
+    "gamma",
+    "dither",
+];
 
 /// What a picture is like, however it is made.
 #[derive(Debug, Args)]
@@ -110,12 +120,19 @@ pub struct ImageArgs {
     /// How samples are spread around sub-pixels
     #[arg(long, value_enum)]
     pub filter: Option<FilterArg>,
-    /// Factor from radiance to brightness; what then exceeds 1 is clamped
-    #[arg(long, value_name = "X", value_parser = parse_positive, allow_negative_numbers = true)]
-    pub exposure: Option<f64>,
-    /// Exponent of the screen
-    #[arg(long, value_name = "X", value_parser = parse_positive, allow_negative_numbers = true)]
-    pub gamma: Option<f64>,
+    /// Factor from radiance to brightness, or auto: 98 % of the lit pixels are then less bright
+    /// than a screen
+    #[arg(long, value_name = "X|auto", value_parser = parse_exposure, allow_negative_numbers = true)]
+    pub exposure: Option<Exposure>,
+    /// What becomes of what is brighter than a screen
+    #[arg(long, value_enum)]
+    pub tone: Option<ToneArg>,
+    /// Exponent of the screen, or srgb
+    #[arg(long, value_name = "X|srgb", value_parser = parse_gamma, allow_negative_numbers = true)]
+    pub gamma: Option<Gamma>,
+    /// Dither levels: no bands in smooth gradients
+    #[arg(long)]
+    pub dither: bool,
 }
 
 /// How pictures are made.
@@ -127,6 +144,10 @@ pub struct ImageArgs {
 pub struct DisplayArgs {
     #[command(flatten)]
     pub image: ImageArgs,
+    /// Degrees between normals below which neighbouring faces of a mesh are shaded as one smooth
+    /// surface [default: 30]
+    #[arg(long, value_name = "DEGREES", value_parser = parse_angle, allow_negative_numbers = true)]
+    pub crease_angle: Option<f64>,
     /// Samples per sub-pixel
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub samples: Option<u32>,
@@ -284,10 +305,10 @@ pub struct CompareCommand {
     /// and levels are divided by it [default: the scene's, or 1]
     #[arg(long, value_name = "X", value_parser = parse_positive, allow_negative_numbers = true)]
     pub exposure: Option<f64>,
-    /// Exponent by which levels of .ppm and .png become brightness [default: a PNG's own, the
-    /// scene's, or 2.2]
-    #[arg(long, value_name = "X", value_parser = parse_positive, allow_negative_numbers = true)]
-    pub gamma: Option<f64>,
+    /// Exponent by which levels of .ppm and .png become brightness, or srgb [default: a PNG's own,
+    /// the scene's, or 2.2]
+    #[arg(long, value_name = "X|srgb", value_parser = parse_gamma, allow_negative_numbers = true)]
+    pub gamma: Option<Gamma>,
     /// Write the differences: .png in colours (red: brighter, blue: darker), .pfm as linear
     /// numbers
     #[arg(long, value_name = "FILE", value_parser = parse_difference_path)]

@@ -39,6 +39,17 @@ pub enum FilterArg {
     Mitchell,
 }
 
+/// [`Tone`](radiosity_scene::Tone) on the command line.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum ToneArg {
+    /// It is white: the course's way
+    Clamp,
+    /// Luminance is compressed, up to the brightest of the picture (Reinhard 2002)
+    Reinhard,
+    /// The response of a film (Hable 2010)
+    Filmic,
+}
+
 /// How direct light is shown, on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum DirectArg {
@@ -57,6 +68,8 @@ pub enum FormatArg {
     PlainPpm,
     /// Portable network graphics, 8 bit
     Png,
+    /// Portable network graphics, 16 bit
+    Png16,
     /// Portable float map: linear radiance
     Pfm,
 }

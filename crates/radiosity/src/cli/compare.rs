@@ -7,18 +7,19 @@ use super::terminal::{say, tell};
 use crate::error::Error;
 use crate::export::{cells, table_mesh};
 use crate::resources::grouped;
+use crate::settings::transfer;
 use radiosity_compare::{
     Cell, Decoded, Errors, Screen, compare_pictures, compare_tables, decode_picture,
     decode_regions, difference_picture, parse_table,
 };
-use radiosity_renderer::{Image, PictureFormat, encode, encode_pfm};
+use radiosity_renderer::{Image, PictureFormat, Transfer, encode, encode_pfm};
 use radiosity_scene::Scene;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// What pictures without a gamma of their own are taken to have.
-const USUAL_GAMMA: f64 = 2.2;
+/// The curve of pictures that say nothing of theirs.
+const USUAL: Transfer = Transfer::Gamma(2.2);
 
 /// The object that `--json` prints. Fields may be added, but not changed or removed.
 #[derive(Debug, Serialize)]
@@ -81,11 +82,13 @@ fn pictures(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Er
         return Err(Error::Input(problem.to_owned()));
     }
     let image = scene.map(|scene| &scene.image);
-    let exposure = args.exposure.or(image.map(|image| image.exposure));
+    let exposure = args
+        .exposure
+        .or(image.and_then(|image| image.exposure.factor()));
     let screen = Screen {
         exposure: exposure.unwrap_or(1.0),
-        gamma: args.gamma,
-        usual_gamma: image.map_or(USUAL_GAMMA, |image| image.gamma),
+        transfer: args.gamma.map(transfer),
+        usual: image.map_or(USUAL, |image| transfer(image.gamma)),
     };
     let picture = |path: &Path| decode_picture(&read(path)?, &screen).map_err(at(path));
     let (found, reference) = (picture(&args.found)?, picture(&args.reference)?);
@@ -131,7 +134,7 @@ fn difference(path: &Path, found: &Decoded, reference: &Decoded) -> Vec<u8> {
             shown.full_scale
         ));
     }
-    encode(&shown.picture, PictureFormat::Png { gamma: 2.2 })
+    encode(&shown.picture, PictureFormat::Png(Transfer::Gamma(2.2)))
 }
 
 fn tables(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Error> {

@@ -1,6 +1,6 @@
 //! Values on the command line.
 
-use radiosity_scene::{Automatic, MOST_DIMMING, Relaxation};
+use radiosity_scene::{Automatic, Exposure, Gamma, MOST_DIMMING, Relaxation, Standard};
 use std::path::PathBuf;
 
 pub(super) fn parse_counts(text: &str) -> Result<(u32, u32), String> {
@@ -94,6 +94,35 @@ pub(super) fn parse_relaxation(text: &str) -> Result<Relaxation, String> {
     match text.parse() {
         Ok(factor) if factor > 0.0 && factor < 2.0 => Ok(Relaxation::Factor(factor)),
         _ => Err("give a number between 0 and 2, neither included, or auto".to_owned()),
+    }
+}
+
+/// `4` or `auto`.
+pub(super) fn parse_exposure(text: &str) -> Result<Exposure, String> {
+    match text {
+        "auto" => Ok(Exposure::Named(Automatic::Auto)),
+        _ => parse_positive(text).map_or_else(
+            |error| Err(format!("{error}, or auto")),
+            |factor| Ok(Exposure::Factor(factor)),
+        ),
+    }
+}
+
+/// `2.2` or `srgb`.
+pub(super) fn parse_gamma(text: &str) -> Result<Gamma, String> {
+    match text {
+        "srgb" => Ok(Gamma::Named(Standard::Srgb)),
+        _ => parse_positive(text).map_or_else(
+            |error| Err(format!("{error}, or srgb")),
+            |gamma| Ok(Gamma::Exponent(gamma)),
+        ),
+    }
+}
+
+pub(super) fn parse_angle(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(angle) if (0.0..=180.0).contains(&angle) => Ok(angle),
+        _ => Err("expected degrees from 0 to 180".to_owned()),
     }
 }
 

@@ -8,8 +8,9 @@ use crate::error::Error;
 use crate::export::{reference_table, table_mesh};
 use crate::observer::{Observer, Stage};
 use crate::resources::{check_image, grouped};
+use crate::settings::tone_map;
 use radiosity_reference::{Tracer, cell_means};
-use radiosity_renderer::{Image, PictureFormat, ToneMap, encode, encode_pfm};
+use radiosity_renderer::{Image, PictureFormat, encode, encode_pfm};
 use radiosity_scene::Scene;
 use radiosity_simd::InstructionSet;
 use serde::Serialize;
@@ -161,7 +162,7 @@ fn trace(
     terminal.begin(Stage::Reference, height);
     loop {
         tracer.pass(&|rows| terminal.advance(rows));
-        let percent = 100.0 * tracer.relative_error(scene.image.exposure);
+        let percent = 100.0 * tracer.relative_error(scene.image.exposure.factor().unwrap_or(0.0));
         let passes = tracer.samples() / tracer.samples_per_pass();
         let expected = expected_passes(args, tracer, start.elapsed().as_secs_f64(), percent);
         if passes >= expected {
@@ -219,9 +220,8 @@ fn save(
             .collect(),
     };
     let (radiance, error) = (image(&traced.radiance), image(&traced.standard_error));
-    let (exposure, gamma) = (scene.image.exposure, scene.image.gamma);
-    let shown = ToneMap { exposure, gamma }.apply(&radiance);
-    let png = encode(&shown, PictureFormat::Png { gamma });
+    let tone = tone_map(&scene.image);
+    let png = encode(&tone.apply(&radiance), PictureFormat::Png(tone.transfer));
     let files = [
         ("radiance", "reference.pfm", encode_pfm(&radiance)),
         ("standard_error", "reference-error.pfm", encode_pfm(&error)),

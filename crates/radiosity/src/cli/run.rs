@@ -17,8 +17,9 @@ use crate::export::radiosity_table;
 use crate::pipeline::{PatchLight, Pipeline};
 use crate::plot::convergence_plot;
 use crate::report::{DisplayReport, Report};
+use crate::settings::tone_map;
 use radiosity_cache::{Store, replace_file_by};
-use radiosity_renderer::{Image, PictureFormat, Shading, ToneMap, encode, encode_pfm};
+use radiosity_renderer::{Image, PictureFormat, Shading, encode, encode_deep_png, encode_pfm};
 use radiosity_scene::{ImageSettings, Scene};
 use radiosity_simd::InstructionSet;
 use std::collections::BTreeMap;
@@ -210,6 +211,7 @@ fn save<'a>(
                 FormatArg::Ppm => ("ppm", "ppm"),
                 FormatArg::PlainPpm => ("plain_ppm", "plain.ppm"),
                 FormatArg::Png => ("png", "png"),
+                FormatArg::Png16 => ("png16", "16.png"),
                 FormatArg::Pfm => ("pfm", "pfm"),
             };
             let path = folder.join(format!("{}-{kind}.{ending}", scene.name));
@@ -229,17 +231,15 @@ fn save<'a>(
 }
 
 fn encoded(image: &Image, settings: &ImageSettings, format: FormatArg) -> Vec<u8> {
-    let ImageSettings {
-        exposure, gamma, ..
-    } = *settings;
-    let picture = ToneMap { exposure, gamma }.apply(image);
-    let format = match format {
-        FormatArg::Ppm => PictureFormat::Ppm,
-        FormatArg::PlainPpm => PictureFormat::PlainPpm,
-        FormatArg::Png => PictureFormat::Png { gamma },
-        FormatArg::Pfm => return encode_pfm(image),
-    };
-    encode(&picture, format)
+    let tone = tone_map(settings);
+    let shown = |format| encode(&tone.apply(image), format);
+    match format {
+        FormatArg::Ppm => shown(PictureFormat::Ppm),
+        FormatArg::PlainPpm => shown(PictureFormat::PlainPpm),
+        FormatArg::Png => shown(PictureFormat::Png(tone.transfer)),
+        FormatArg::Png16 => encode_deep_png(&tone.apply_deep(image), tone.transfer),
+        FormatArg::Pfm => encode_pfm(image),
+    }
 }
 
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
