@@ -2,6 +2,8 @@
 
 mod baseline;
 mod course;
+mod course_display;
+mod display;
 mod form_factors;
 mod machine;
 mod solver;
@@ -17,6 +19,7 @@ use serde::Serialize;
 use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
+use std::time::Instant;
 
 #[derive(Clone, Copy, Debug, Subcommand)]
 pub(crate) enum Bench {
@@ -42,6 +45,13 @@ pub(crate) enum Bench {
     /// The solver: passes beside the bandwidth of memory, what each method takes, and the course's
     /// loop (a minute)
     Solver {
+        /// Print one JSON object per figure: name, value, unit, target, holds
+        #[arg(long)]
+        json: bool,
+    },
+    /// Pictures: speed beside the course's loop, error and time with exact direct light, beside the
+    /// path tracer (a minute)
+    Display {
         /// Print one JSON object per figure: name, value, unit, target, holds
         #[arg(long)]
         json: bool,
@@ -128,6 +138,16 @@ fn generated(name: &str, text: &str) -> Result<(Scene, Mesh), Error> {
     Ok((scene, mesh.map_err(|error| Error::Mesh(error.to_string()))?))
 }
 
+/// The best of several runs, in seconds.
+fn best_seconds(runs: u32, mut run: impl FnMut()) -> f64 {
+    let once = |_| {
+        let start = Instant::now();
+        run();
+        start.elapsed().as_secs_f64()
+    };
+    (0..runs).map(once).fold(f64::INFINITY, f64::min)
+}
+
 /// Prints figures, for people or as JSON.
 fn show(figures: &[Figure], json: bool) {
     let show = if json { Figure::print } else { Figure::say };
@@ -141,6 +161,7 @@ fn line(text: &str) {
 
 pub(crate) fn run(bench: Bench, root: &Path) -> ExitCode {
     let result = match bench {
+        Bench::Display { json } => display::run(root, json),
         Bench::FormFactors { json } => form_factors::run(root, json),
         Bench::Solver { json } => solver::run(root, json),
         Bench::Truth { json } => truth::run(root, json),

@@ -78,6 +78,7 @@ fn png(
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(depth);
+    encoder.set_compression(png::Compression::Fast);
     match transfer {
         Transfer::Gamma(gamma) => {
             encoder.set_source_gamma(png::ScaledFloat::new((1.0 / gamma) as f32));

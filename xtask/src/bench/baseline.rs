@@ -19,9 +19,9 @@ struct Rectangle {
     normal: DVec3,
 }
 
-struct Ray {
-    origin: DVec3,
-    direction: DVec3,
+pub(super) struct Ray {
+    pub(super) origin: DVec3,
+    pub(super) direction: DVec3,
 }
 
 /// The course's form factor loop over a mesh of parallelograms.
@@ -69,7 +69,7 @@ impl<'a> Baseline<'a> {
                 let direction = (q - p) / distance;
                 let origin = p;
                 let first = self.closest(&Ray { origin, direction });
-                if first.is_some_and(|first| first != patch_j.face.index()) {
+                if first.is_some_and(|(first, _)| first != patch_j.face.index()) {
                     continue;
                 }
                 let cos_i = patch_i.normal.dot(direction);
@@ -82,14 +82,16 @@ impl<'a> Baseline<'a> {
         sum * patch_j.area / (POINTS * POINTS * POINTS * POINTS) as f64
     }
 
-    fn closest(&self, ray: &Ray) -> Option<usize> {
-        let mut closest = (f64::INFINITY, None);
+    /// The first rectangle that a ray meets, and where.
+    pub(super) fn closest(&self, ray: &Ray) -> Option<(usize, f64)> {
+        let mut closest: Option<(usize, f64)> = None;
         for (k, rectangle) in self.rectangles.iter().enumerate() {
-            if let Some(t) = rectangle.hit(ray).filter(|&t| t < closest.0) {
-                closest = (t, Some(k));
+            let nearest = closest.map_or(f64::INFINITY, |(_, t)| t);
+            if let Some(t) = rectangle.hit(ray).filter(|&t| t < nearest) {
+                closest = Some((k, t));
             }
         }
-        closest.1
+        closest
     }
 }
 

@@ -1,7 +1,7 @@
 //! How fast form factors are, and what the accurate ones cost, side by side with the course's.
 
 use super::baseline::Baseline;
-use super::{Figure, Target, machine};
+use super::{Figure, Target, best_seconds, machine};
 use radiosity::form_factors::{Estimator, estimate};
 use radiosity::geometry::{Divisions, Mesh, subdivide};
 use radiosity::scene::{Mode, Scene, load};
@@ -86,14 +86,16 @@ fn point_pairs(mesh: &Mesh) -> f64 {
     81.0 * (square(mesh.patches.len()) - of_faces) / 2.0
 }
 
+/// What the course's loop takes for all rows.
+pub(super) fn baseline_seconds(mesh: &Mesh) -> f64 {
+    point_pairs(mesh) / baseline_rate(mesh)
+}
+
 /// The best of several runs, in seconds.
-fn best_seconds(mesh: &Mesh, estimator: Estimator, runs: u32) -> f64 {
-    let once = |_| {
-        let start = Instant::now();
+fn estimate_seconds(mesh: &Mesh, estimator: Estimator, runs: u32) -> f64 {
+    best_seconds(runs, || {
         std::hint::black_box(estimate(mesh, estimator, &|_| ()));
-        start.elapsed().as_secs_f64()
-    };
-    (0..runs).map(once).fold(f64::INFINITY, f64::min)
+    })
 }
 
 /// The regular rule as patches grow more.
@@ -103,7 +105,7 @@ fn sizes(scene: &Scene, rate: f64, peak: f64) -> Result<Vec<Figure>, Error> {
     for (divisions, runs, promise) in SIZES {
         let mesh = cut(scene, divisions)?;
         let patches = mesh.patches.len() as f64;
-        let seconds = best_seconds(&mesh, Estimator::Regular { points: 3 }, runs);
+        let seconds = estimate_seconds(&mesh, Estimator::Regular { points: 3 }, runs);
         let mut add = |what: &str, value: f64, unit, target| {
             let name = format!("form_factors.regular.{divisions}.{what}");
             figures.push(Figure::new(name, Some(value), unit, target));
@@ -163,7 +165,7 @@ fn accuracy(scene: &mut Scene, baseline_seconds: f64) -> Result<Vec<Figure>, Err
     let accurate = radiosities(scene)?;
     let mesh = cut(scene, SIZES[0].0)?;
     let tolerance = TOLERANCE;
-    let seconds = best_seconds(&mesh, Estimator::Accurate { tolerance }, 5);
+    let seconds = estimate_seconds(&mesh, Estimator::Accurate { tolerance }, 5);
     let errors = [&course, &accurate].map(|found| 100.0 * relative_error(found, &truth));
     let figure = |name: &str, value: f64, unit, target| {
         Figure::new(format!("form_factors.{name}"), Some(value), unit, target)

@@ -2,7 +2,7 @@
 //! beside them.
 
 use super::form_factors::relative_error;
-use super::{Figure, Target, course};
+use super::{Figure, Target, best_seconds, course};
 use radiosity::cache::Store;
 use radiosity::form_factors::FormFactors;
 use radiosity::matrix::SymmetricMatrix;
@@ -77,16 +77,6 @@ fn form_factors(scene: &Scene, store: &Store) -> Result<FormFactors, Error> {
     Ok(pipeline.form_factors(Sources::Cached)?.form_factors)
 }
 
-/// The best of several runs, in seconds.
-fn best(runs: u32, mut run: impl FnMut()) -> f64 {
-    let once = |_| {
-        let start = Instant::now();
-        run();
-        start.elapsed().as_secs_f64()
-    };
-    (0..runs).map(once).fold(f64::INFINITY, f64::min)
-}
-
 /// So many runs of what takes so long at the largest size.
 fn runs(patches: usize) -> u32 {
     if patches > 10_000 { 5 } else { 30 }
@@ -97,12 +87,12 @@ fn passes(made: &FormFactors) -> Vec<Figure> {
     let patches = made.exchange.size();
     let (values, runs) = (made.exchange.values(), runs(patches));
     let bytes = 4.0 * values.len() as f64;
-    let read = best(runs, || {
+    let read = best_seconds(runs, || {
         std::hint::black_box(sum(values));
     });
     let pass = |matrix: &SymmetricMatrix, lights: usize| {
         let mut x = vec![[1.0; 3]; patches * lights];
-        best(runs, || {
+        best_seconds(runs, || {
             std::hint::black_box(matrix.sweep(&mut x, lights, &mut |_, _, _| ()));
         })
     };
@@ -164,7 +154,7 @@ fn methods(mut scene: Scene, made: &FormFactors) -> Result<Vec<Figure>, Error> {
             let pipeline = Pipeline::new(&scene, None, &Silent)?;
             let patches = pipeline.mesh().patches.len();
             let report = pipeline.solve_by(method, made)?.report;
-            let seconds = best(runs(patches).div_ceil(5), || {
+            let seconds = best_seconds(runs(patches).div_ceil(5), || {
                 std::hint::black_box(pipeline.solve_by(method, made).is_ok());
             });
             let promise = match (&scene.name[..], &name[..]) {
@@ -242,7 +232,7 @@ fn beside_the_course(made: &FormFactors, figures: &[Figure]) -> Figure {
 /// A frame of 10,000 patches in which four lamps are dimmed.
 fn relighting() -> Figure {
     let lights = vec![vec![[1.0, 0.5, 0.25]; 10_000]; 4];
-    let seconds = best(100, || {
+    let seconds = best_seconds(100, || {
         std::hint::black_box(relit(&lights, &[[0.1, 0.2, 0.3]; 4]));
     });
     let unit = "us for 10,000 patches and 4 lights";
