@@ -23,7 +23,7 @@ pub(crate) struct Interpolant<'a> {
 pub(crate) struct Places {
     pub(crate) face: FaceId,
     pub(crate) at: [[f64; LANES]; 2],
-    /// The same in space.
+    /// The same in space, if they are needed.
     pub(crate) points: [[f64; LANES]; 3],
     pub(crate) lanes: u8,
 }
@@ -107,10 +107,9 @@ impl<'a> Interpolant<'a> {
 
     /// The smooth values at places; never negative, though a bicubic may be.
     #[inline(always)]
-    pub(crate) fn at<S: Simd>(&self, simd: S, places: &Places) -> [S::F32; 3] {
+    pub(crate) fn at<S: Simd>(&self, simd: S, (places, local): (&Places, &Local)) -> [S::F32; 3] {
         let zero = simd.splat_f32(0.0);
         let mut values = [zero; 3];
-        let local = Local::in_patches(self.mesh, places);
         let first_patch = self.mesh.faces[places.face.index()].first_patch;
         let first_piece = self.grids[places.face.index()];
         let at = [simd.f32(&local.at[0]), simd.f32(&local.at[1])];

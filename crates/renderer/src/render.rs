@@ -3,7 +3,7 @@
 use crate::Rgb;
 use crate::fields::Fields;
 use crate::image::Image;
-use crate::interpolate::Places;
+use crate::interpolate::{Local, Places};
 use crate::samples::SampleSets;
 use crate::shade::{Room, Shader};
 use radiosity_geometry::{Camera, DVec2, DVec3, Film, Mesh, Offsets, PixelFilter, Screen, Seen};
@@ -68,8 +68,17 @@ pub enum Shading {
     Exact,
 }
 
+impl Shading {
+    /// How many there are.
+    const COUNT: usize = 3;
+}
+
 /// Renders a picture by each of some shadings. `progress` is told how many further rows are done,
 /// from any thread.
+///
+/// # Panics
+///
+/// If a shading is asked for twice.
 pub fn render(
     mesh: &Mesh,
     fields: &Fields<'_>,
@@ -78,6 +87,8 @@ pub fn render(
     shadings: &[Shading],
     progress: &(dyn Fn(u64) + Sync),
 ) -> Vec<Image> {
+    let is_new = |k: usize| !shadings[..k].contains(&shadings[k]);
+    assert!((0..shadings.len()).all(is_new), "each shading once");
     let film = params.film();
     let view = View {
         film: camera.film(film.width, film.height),
@@ -139,15 +150,25 @@ impl Kernel for Row<'_> {
             let pixel = (x as u32, self.y);
             let samples = view.samples.of_pixel(pixel.0, pixel.1, 0);
             view.screen.look(simd, pixel, &samples.offsets, &mut seen);
+            let mut sums = [[simd.splat_f32(0.0); 3]; Shading::COUNT];
             for seen in &seen {
                 let group = seen.group as usize;
                 let Some(places) = view.places(simd, pixel, *seen, &samples.offsets[group]) else {
                     continue;
                 };
-                for (sum, shading) in pixels.iter_mut().zip(shadings) {
-                    let radiosity = view.shader.shade(simd, *shading, &places, &mut room);
-                    add(simd, sum, &radiosity, &samples.weights[group], seen.lanes);
+                let local = Local::in_patches(view.mesh, &places);
+                let weights = simd.f32(&samples.weights[group]);
+                let weights = weights.select(seen.lanes, simd.splat_f32(0.0));
+                for (sums, shading) in sums.iter_mut().zip(shadings) {
+                    let place = (&places, &local);
+                    let radiosity = view.shader.shade(simd, *shading, place, &mut room);
+                    for c in 0..3 {
+                        sums[c] = sums[c] + radiosity[c] * weights;
+                    }
                 }
+            }
+            for (pixel, sums) in pixels.iter_mut().zip(&sums) {
+                *pixel = [total(sums[0]), total(sums[1]), total(sums[2])];
             }
         }
     }
@@ -178,7 +199,8 @@ impl View<'_> {
         let w = &face.inverse_depth;
         let depth = one / w.around(simd, w.at(corner), offset);
         let mut points = [[0.0; LANES]; 3];
-        for (axis, points) in points.iter_mut().enumerate() {
+        let are_needed = face.coordinates.is_none() || self.shader.needs_points();
+        for (axis, points) in points.iter_mut().enumerate().filter(|_| are_needed) {
             let [origin, across, down] = self.film.map(|direction| direction[axis]);
             let known = origin + across * corner.x + down * corner.y;
             let along = simd.splat_f64(known)
@@ -208,18 +230,9 @@ impl View<'_> {
     }
 }
 
-/// Adds some samples to a pixel: their radiosities as radiance, by their weights.
+/// The sum over all lanes, as radiance.
 #[inline(always)]
-fn add<S: Simd>(
-    simd: S,
-    pixel: &mut Rgb,
-    radiosity: &[S::F32; 3],
-    weights: &[f32; LANES],
-    lanes: u8,
-) {
-    let weights = simd.f32(weights).select(lanes, simd.splat_f32(0.0));
-    for c in 0..3 {
-        let sum: f32 = (radiosity[c] * weights).lanes().iter().sum();
-        pixel[c] += sum / PI;
-    }
+fn total<F: Float<f32>>(sums: F) -> f32 {
+    let [a, b, c, d, e, f, g, h] = sums.lanes();
+    (((a + e) + (c + g)) + ((b + f) + (d + h))) / PI
 }

@@ -11,7 +11,6 @@ use radiosity_simd::{Float, Simd};
 
 /// Shows the light of patches at places of their faces.
 pub(crate) struct Shader<'a> {
-    mesh: &'a Mesh,
     fields: Fields<'a>,
     shadings: Vec<Shading>,
     smooth: Option<Interpolant<'a>>,
@@ -52,7 +51,6 @@ impl<'a> Shader<'a> {
             indirect: interpolant(&indirect),
         };
         Shader {
-            mesh,
             fields: *fields,
             shadings: shadings.to_vec(),
             smooth: shadings.contains(&Shading::Smooth).then(smooth),
@@ -64,26 +62,30 @@ impl<'a> Shader<'a> {
         &self.shadings
     }
 
+    /// Whether places are asked for their points in space.
+    pub(crate) fn needs_points(&self) -> bool {
+        self.exact.is_some()
+    }
+
     /// The radiosities at places by one of the shadings.
     #[inline(always)]
     pub(crate) fn shade<S: Simd>(
         &self,
         simd: S,
         shading: Shading,
-        places: &Places,
+        place: (&Places, &Local),
         room: &mut Room,
     ) -> [S::F32; 3] {
         match (shading, &self.smooth, &self.exact) {
-            (Shading::Smooth, Some(smooth), _) => smooth.at(simd, places),
-            (Shading::Exact, _, Some(exact)) => self.exact(simd, exact, places, room),
-            _ => self.constant(simd, places),
+            (Shading::Smooth, Some(smooth), _) => smooth.at(simd, place),
+            (Shading::Exact, _, Some(exact)) => self.exact(simd, exact, place, room),
+            _ => self.constant(simd, place),
         }
     }
 
     /// The values of the patches at places.
     #[inline(always)]
-    fn constant<S: Simd>(&self, simd: S, places: &Places) -> [S::F32; 3] {
-        let local = Local::in_patches(self.mesh, places);
+    fn constant<S: Simd>(&self, simd: S, (places, local): (&Places, &Local)) -> [S::F32; 3] {
         let mut values = [simd.splat_f32(0.0); 3];
         let mut rest = places.lanes;
         while rest != 0 {
@@ -102,11 +104,10 @@ impl<'a> Shader<'a> {
         &self,
         simd: S,
         exact: &Exact<'_>,
-        places: &Places,
+        (places, local): (&Places, &Local),
         room: &mut Room,
     ) -> [S::F32; 3] {
-        let mut values = exact.indirect.at(simd, places);
-        let local = Local::in_patches(self.mesh, places);
+        let mut values = exact.indirect.at(simd, (places, local));
         let [x, y, z] = &places.points;
         let mut rest = places.lanes;
         while rest != 0 {
