@@ -22,14 +22,16 @@ struct Effort {
 }
 
 const FIRST_LOOK: Effort = Effort { rays: 32, cells: 4 };
-/// For patches of which a part is hidden.
+/// For patches of which a part may be hidden.
 const CLOSE_LOOK: Effort = Effort {
     rays: 256,
     cells: 8,
 };
-/// Where backs are more than this share of what a point sees, it lies inside of something. At the foot
-/// of a wall that turns its back it is a half, which a cell's rays miss by less.
-const HIDDEN: f64 = 0.65;
+/// Where backs are more than this share of what a point sees, it lies inside of something, or right under
+/// it. Under a low table that is open at its sides less is seen of backs, and some light arrives.
+const HIDDEN: f64 = 0.95;
+/// Where they are more than this in a cell of the first look, a part of it may be hidden.
+const SUSPICIOUS: f64 = 0.8;
 /// Tells these shifts from those of pairs of patches.
 const SEED: u64 = 1;
 /// So many faces are tried in turn; more are found by a tree.
@@ -70,10 +72,12 @@ pub(crate) fn look_around(mesh: &Mesh, obstacles: &Obstacles, index: usize) -> S
         })
     };
     let sums = look(FIRST_LOOK);
-    let mut visible = visible_share(&sums.cells);
-    if visible > 0.0 && visible < 1.0 {
-        visible = visible_share(&look(CLOSE_LOOK).cells);
-    }
+    let is_open = |[all, backs]: &[f64; 2]| *backs < SUSPICIOUS * all;
+    let visible = if sums.cells.iter().all(is_open) {
+        1.0
+    } else {
+        visible_share(&look(CLOSE_LOOK).cells)
+    };
     let total = |lanes: &[f64; LANES]| lanes.iter().sum::<f64>();
     let all = total(&sums.all);
     let found = std::array::from_fn(|lane| sums.backs[lane] + sums.background[lane]);
