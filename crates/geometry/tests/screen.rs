@@ -61,11 +61,11 @@ fn shown(screen: &Screen) -> Vec<Option<(u32, bool)>> {
             for set in InstructionSet::available() {
                 assert_eq!(look(set), seen, "{}", set.name());
             }
-            let claimed = seen.iter().fold(0, |all, seen| {
+            let _claimed = seen.iter().fold(0, |all, seen| {
                 assert_eq!(all & seen.lanes, 0, "two faces in one sample");
                 all | seen.lanes
             });
-            assert!(seen.iter().all(|seen| seen.lanes != 0) || claimed == 0);
+            assert!(seen.iter().all(|seen| seen.lanes != 0));
             all.extend((0..LANES).map(|lane| {
                 let face = seen.iter().find(|seen| seen.lanes >> lane & 1 != 0)?;
                 let face = &screen.faces[face.face as usize];

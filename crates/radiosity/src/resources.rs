@@ -23,8 +23,8 @@ const BYTES_PER_PATCH: u64 = 2048;
 const BYTES_PER_POINT: u64 = 32;
 /// What the accurate estimator stores of a patch, in points.
 const ACCURATE_POINTS: u64 = 48;
-/// Two linear images, and one of them shown and encoded.
-const BYTES_PER_PIXEL: u64 = 2 * 12 + 3 + 12;
+/// Two linear images, as they are made and apart, and one of them shown and encoded.
+const BYTES_PER_PIXEL: u64 = 2 * 2 * 12 + 6 + 12;
 /// The share of the free memory that a run may take.
 const USABLE_SHARE: f64 = 0.9;
 
@@ -220,7 +220,7 @@ mod tests {
         );
         let error = check_image(1 << 16, 1 << 16).unwrap_err().to_string();
         assert!(
-            error.contains("168 GB") && error.contains("--size"),
+            error.contains("283 GB") && error.contains("--size"),
             "{error}"
         );
     }

@@ -52,6 +52,7 @@ pub(crate) fn image_params(scene: &Scene) -> ImageParams {
         subpixels: image.subpixels,
         filter: image.filter,
         samples: image.samples,
+        adaptive: image.adaptive,
         seed: image.seed,
         crease_angle: image.crease_angle,
     }

@@ -4,15 +4,17 @@
 //! An emitter is a convex polygon of even exitance `M`. A point with the form factor `F` to it has
 //! the irradiance `M F` (Cohen & Wallace 1993, section 4.4). What blocks is convex too, so its
 //! shadow on the emitter is what lies in a cone; cut out of the emitter, it leaves convex pieces.
-//! No sample is taken, and nothing is noisy: penumbrae are exact.
+//! No sample is taken, and nothing is noisy: penumbrae are exact. Behind dozens of faces, as of a mesh,
+//! samples are cheaper, and are taken.
 
 mod pieces;
 
 use crate::Rgb;
 use crate::fields::Fields;
+use crate::samples::{mix, sobol};
 pub(crate) use pieces::Cutting;
 use pieces::form_factor;
-use radiosity_geometry::{DVec3, FaceId, Mesh, Occluders, Polygon};
+use radiosity_geometry::{DVec2, DVec3, FaceId, Mesh, Occluders, Polygon};
 use radiosity_simd::{Float, LANES, Simd, angle};
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
@@ -41,7 +43,15 @@ enum Standing {
     Clear,
     /// Partly below the horizon, or with faces in the way.
     Cut(Vec<FaceId>),
+    /// With so many faces in the way that samples are cheaper.
+    Crowded,
 }
+
+/// The most faces that are cut out one by one.
+const MOST_CUT: usize = 48;
+/// Points on an emitter to which segments are tried where more are in the way: for each sample, of
+/// which a pixel has many.
+const POINTS: u32 = 8;
 
 /// Eight points of a patch.
 pub(crate) struct Points<F> {
@@ -90,7 +100,13 @@ impl<'a> DirectLight<'a> {
                     simd.narrow(clear_factors(simd, emitter, points, normal))
                 }
                 Standing::Cut(blockers) => {
-                    simd.f32(&self.cut_factors(emitter, blockers, points, room))
+                    let factor = |at| self.cut_factor(emitter, blockers, at, room);
+                    simd.f32(&self.factors(points, factor))
+                }
+                Standing::Crowded => {
+                    let face = self.mesh.patches[points.patch].face;
+                    let factor = |at| self.crowded_factor(emitter, face, at, room);
+                    simd.f32(&self.factors(points, factor))
                 }
             };
             for (sum, exitance) in sums.iter_mut().zip(&emitter.exitance) {
@@ -126,6 +142,13 @@ impl<'a> DirectLight<'a> {
         if is_away {
             return Standing::Away;
         }
+        // Whether both lie on one side of a face's plane, or in it: no segment between them crosses it.
+        let is_beside = |face: FaceId| {
+            let face = &self.mesh.faces[face.index()];
+            let over = |points| heights(points, face.normal, face.polygon.corners()[0]);
+            let ([low, high], [lower, higher]) = (over(own), over(lamp));
+            low.min(lower) >= -tolerance || high.max(higher) <= tolerance
+        };
         let ends = [patch.polygon.bounds(), emitter.polygon.bounds()];
         let all = self.occluders.between(ends, usize::MAX).unwrap_or_default();
         let is_between = |face: &FaceId| {
@@ -135,22 +158,23 @@ impl<'a> DirectLight<'a> {
                 && *face != emitter.face
                 && heights(corners, patch.normal, patch.centroid)[1] > tolerance
                 && heights(corners, emitter.normal, lamp[0])[1] > tolerance
+                && !is_beside(*face)
         };
         let blockers: Vec<FaceId> = all.into_iter().filter(is_between).collect();
         if blockers.is_empty() && over_patch[0] >= 0.0 && over_lamp[0] > tolerance {
             Standing::Clear
+        } else if blockers.len() > MOST_CUT {
+            Standing::Crowded
         } else {
             Standing::Cut(blockers)
         }
     }
 
-    /// The form factors of points to what is left of an emitter.
-    fn cut_factors<F: Float<f64>>(
+    /// The form factors of points with their normal, one by one.
+    fn factors<F: Float<f64>>(
         &self,
-        emitter: &Emitter,
-        blockers: &[FaceId],
         points: &Points<F>,
-        room: &mut Cutting,
+        mut factor_of: impl FnMut((DVec3, DVec3)) -> f64,
     ) -> [f32; LANES] {
         let at = [
             points.at[0].lanes(),
@@ -162,12 +186,13 @@ impl<'a> DirectLight<'a> {
         for (lane, factor) in factors.iter_mut().enumerate() {
             if points.lanes >> lane & 1 != 0 {
                 let at = DVec3::from_array(at.map(|axis| axis[lane]));
-                *factor = self.cut_factor(emitter, blockers, (at, normal), room) as f32;
+                *factor = factor_of((at, normal)) as f32;
             }
         }
         factors
     }
 
+    /// To what is left of an emitter.
     fn cut_factor(
         &self,
         emitter: &Emitter,
@@ -183,6 +208,9 @@ impl<'a> DirectLight<'a> {
         let count = emitter.polygon.corners().len();
         room.begin(&corners[..count], normal);
         for &blocker in blockers {
+            if room.pieces.is_empty() {
+                return 0.0;
+            }
             let face = &self.mesh.faces[blocker.index()];
             let corners = face.polygon.padded_corners().map(|corner| corner - at);
             let height = -face.normal.dot(corners[0]);
@@ -194,6 +222,55 @@ impl<'a> DirectLight<'a> {
         }
         let factors = room.pieces.iter().map(|piece| form_factor(piece, normal));
         factors.sum()
+    }
+}
+
+impl DirectLight<'_> {
+    /// The factor without anything in the way, times the share of points that are seen, weighted as the
+    /// light from them would be (Heitz, Hill & McGuire, "Combining Analytic Direct Illumination and
+    /// Stochastic Shadows", 2018). Which points depends on the place alone.
+    fn crowded_factor(
+        &self,
+        emitter: &Emitter,
+        face: FaceId,
+        (at, normal): (DVec3, DVec3),
+        room: &mut Cutting,
+    ) -> f64 {
+        let whole = self.cut_factor(emitter, &[], (at, normal), room);
+        if whole == 0.0 {
+            return 0.0;
+        }
+        let bits = at.to_array().map(f64::to_bits);
+        let hash = bits.into_iter().fold(0, |hash, bits| mix(hash ^ bits));
+        let scramble = [hash as u32, (hash >> 32) as u32];
+        let (mut all, mut visible) = (0.0, 0.0);
+        for k in 0..POINTS {
+            let point = emitter.point(sobol(k, scramble));
+            let to = point - at;
+            let cosines = normal.dot(to).max(0.0) * -emitter.normal.dot(to).min(0.0);
+            let weight = cosines / to.length_squared().powi(2);
+            all += weight;
+            if weight > 0.0 && !self.occluders.blocked(face, at, emitter.face, point) {
+                visible += weight;
+            }
+        }
+        if all > 0.0 {
+            whole * visible / all
+        } else {
+            0.0
+        }
+    }
+}
+
+impl Emitter {
+    /// A point by coordinates of the unit square; uniform on triangles and parallelograms.
+    fn point(&self, at: DVec2) -> DVec3 {
+        if !self.polygon.is_triangle() {
+            return self.polygon.bilinear(at.x, at.y);
+        }
+        let fold = f64::from(u8::from(at.x + at.y > 1.0));
+        self.polygon
+            .barycentric((fold - at.x).abs(), (fold - at.y).abs())
     }
 }
 

@@ -1,5 +1,5 @@
 //! Turns a [`Mesh`](radiosity_geometry::Mesh) with one colour per patch and a camera into
-//! pictures: patch-constant and smooth, from one pass of rays.
+//! pictures: patch-constant, smooth, or with exact direct light, from one pass over the pixels.
 //!
 //! A diffuse surface of radiosity `B` shows the radiance `L = B / pi` in every direction, on its
 //! front; its back is black, and so is the background. [`Image`] holds linear radiance,
@@ -16,6 +16,7 @@ mod hanging;
 mod image;
 mod interpolate;
 mod render;
+mod resample;
 mod samples;
 mod shade;
 mod tone;

@@ -4,7 +4,8 @@ use crate::Rgb;
 use crate::fields::Fields;
 use crate::image::Image;
 use crate::interpolate::{Local, Places};
-use crate::samples::SampleSets;
+use crate::resample::filtered;
+use crate::samples::{SampleSet, SampleSets};
 use crate::shade::{Room, Shader};
 use radiosity_geometry::{Camera, DVec2, DVec3, Film, Mesh, Offsets, PixelFilter, Screen, Seen};
 use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
@@ -20,10 +21,13 @@ pub struct ImageParams {
     pub height: u32,
     /// Sub-pixels along each edge of a pixel.
     pub subpixels: u32,
-    /// How samples are spread around sub-pixels.
+    /// How samples are spread around sub-pixels; wide filters take the mean of sub-pixels instead.
     pub filter: PixelFilter,
     /// Samples per sub-pixel.
     pub samples: u32,
+    /// How many times as many samples a pixel may take that shows several faces of different
+    /// brightness; 1 for all as many.
+    pub adaptive: u32,
     /// Seed of the sample positions.
     pub seed: u64,
     /// Degrees between normals below which neighbouring triangles are shaded as one smooth
@@ -40,6 +44,7 @@ impl Default for ImageParams {
             subpixels: 2,
             filter: PixelFilter::default(),
             samples: 4,
+            adaptive: 1,
             seed: 0,
             crease_angle: 30.0,
         }
@@ -47,6 +52,17 @@ impl Default for ImageParams {
 }
 
 impl ImageParams {
+    /// For a picture of sub-pixels, each of which is a pixel.
+    fn of_parts(&self) -> ImageParams {
+        ImageParams {
+            width: self.width * self.subpixels,
+            height: self.height * self.subpixels,
+            subpixels: 1,
+            filter: PixelFilter::Box,
+            ..*self
+        }
+    }
+
     fn film(&self) -> Film {
         Film {
             width: self.width,
@@ -89,12 +105,20 @@ pub fn render(
 ) -> Vec<Image> {
     let is_new = |k: usize| !shadings[..k].contains(&shadings[k]);
     assert!((0..shadings.len()).all(is_new), "each shading once");
+    if params.filter.is_wide() {
+        let parts = render(mesh, fields, camera, &params.of_parts(), shadings, progress);
+        let images = parts
+            .iter()
+            .map(|parts| filtered(parts, params.subpixels, params.filter));
+        return images.collect();
+    }
     let film = params.film();
     let view = View {
         film: camera.film(film.width, film.height),
         screen: Screen::new(mesh, camera, (film.width, film.height), film.reach()),
         shader: Shader::new(mesh, fields, params.crease_angle, shadings),
         samples: SampleSets::new(&film, params.samples, params.seed),
+        most_rounds: params.adaptive,
         mesh,
         camera,
     };
@@ -130,6 +154,7 @@ struct View<'a> {
     screen: Screen,
     shader: Shader<'a>,
     samples: SampleSets,
+    most_rounds: u32,
 }
 
 /// A row of pixels, each as often as there are shadings.
@@ -139,42 +164,99 @@ struct Row<'a> {
     row: &'a mut [Rgb],
 }
 
+/// What the samples of a pixel have come to.
+struct Sums<F> {
+    /// By shading and channel, in each lane.
+    radiosity: [[F; 3]; Shading::COUNT],
+    /// The least and the greatest sample by the last shading, in each lane: the sum of its channels.
+    range: [F; 2],
+}
+
+/// Samples that differ by less than this share of the brightest need no more.
+const DIFFERENCE: f32 = 0.05;
+
 impl Kernel for Row<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let (view, mut seen, mut room) = (self.view, Vec::new(), Room::default());
-        let shadings = view.shader.shadings();
-        for (x, pixels) in self.row.chunks_exact_mut(shadings.len()).enumerate() {
+        let count = view.shader.shadings().len();
+        for (x, pixels) in self.row.chunks_exact_mut(count).enumerate() {
             let pixel = (x as u32, self.y);
-            let samples = view.samples.of_pixel(pixel.0, pixel.1, 0);
-            view.screen.look(simd, pixel, &samples.offsets, &mut seen);
-            let mut sums = [[simd.splat_f32(0.0); 3]; Shading::COUNT];
-            for seen in &seen {
-                let group = seen.group as usize;
-                let Some(places) = view.places(simd, pixel, *seen, &samples.offsets[group]) else {
-                    continue;
-                };
-                let local = Local::in_patches(view.mesh, &places);
-                let weights = simd.f32(&samples.weights[group]);
-                let weights = weights.select(seen.lanes, simd.splat_f32(0.0));
-                for (sums, shading) in sums.iter_mut().zip(shadings) {
-                    let place = (&places, &local);
-                    let radiosity = view.shader.shade(simd, *shading, place, &mut room);
-                    for c in 0..3 {
-                        sums[c] = sums[c] + radiosity[c] * weights;
-                    }
-                }
+            let mut sums = Sums {
+                radiosity: [[simd.splat_f32(0.0); 3]; Shading::COUNT],
+                range: [simd.splat_f32(f32::INFINITY), simd.splat_f32(0.0)],
+            };
+            let mut rounds = 0;
+            let mut wants_more = true;
+            while wants_more && rounds < view.most_rounds {
+                let samples = view.samples.of_pixel(pixel.0, pixel.1, rounds);
+                let is_mixed = view.screen.look(simd, pixel, &samples.offsets, &mut seen);
+                view.add(simd, (pixel, samples), &seen, &mut room, &mut sums);
+                rounds += 1;
+                // What shows two faces may have missed one of them once.
+                wants_more = is_mixed && (rounds == 1 || sums.differ());
             }
-            for (pixel, sums) in pixels.iter_mut().zip(&sums) {
-                *pixel = [total(sums[0]), total(sums[1]), total(sums[2])];
+            let scale = 1.0 / (PI * rounds as f32);
+            for (pixel, sums) in pixels.iter_mut().zip(&sums.radiosity) {
+                *pixel = [0, 1, 2].map(|c| scale * total(sums[c]));
             }
         }
     }
 }
 
+impl<F: Float<f32>> Sums<F> {
+    #[inline(always)]
+    fn differ(&self) -> bool {
+        let (mut low, mut high) = (f32::INFINITY, 0.0f32);
+        for (least, greatest) in self.range[0].lanes().into_iter().zip(self.range[1].lanes()) {
+            (low, high) = (low.min(least), high.max(greatest));
+        }
+        high - low > DIFFERENCE * high
+    }
+}
+
 impl View<'_> {
+    /// Adds the samples of a pixel that show faces, by each shading.
+    #[inline(always)]
+    fn add<S: Simd>(
+        &self,
+        simd: S,
+        (pixel, samples): ((u32, u32), &SampleSet),
+        seen: &[Seen],
+        room: &mut Room,
+        sums: &mut Sums<S::F32>,
+    ) {
+        let zero = simd.splat_f32(0.0);
+        let mut dark = !0;
+        for seen in seen {
+            let group = seen.group as usize;
+            let Some(places) = self.places(simd, pixel, *seen, &samples.offsets[group]) else {
+                continue;
+            };
+            dark &= !seen.lanes;
+            let place = (&places, &Local::in_patches(self.mesh, &places));
+            let weights = simd.f32(&samples.weights[group]).select(seen.lanes, zero);
+            let mut brightness = zero;
+            let shadings = self.shader.shadings().iter();
+            for (sums, shading) in sums.radiosity.iter_mut().zip(shadings) {
+                let radiosity = self.shader.shade(simd, *shading, place, room);
+                for c in 0..3 {
+                    sums[c] = sums[c] + radiosity[c] * weights;
+                }
+                brightness = radiosity[0] + radiosity[1] + radiosity[2];
+            }
+            let [least, greatest] = sums.range;
+            sums.range = [
+                least.min(brightness).select(seen.lanes, least),
+                greatest.max(brightness).select(seen.lanes, greatest),
+            ];
+        }
+        // Samples that show nothing are dark.
+        sums.range[0] = zero.select(dark, sums.range[0]);
+    }
+
     /// Where on a face the samples of a pixel lie that show it; nowhere if it shows its back, or has
     /// no patches.
     #[inline(always)]
@@ -230,9 +312,9 @@ impl View<'_> {
     }
 }
 
-/// The sum over all lanes, as radiance.
+/// The sum over all lanes.
 #[inline(always)]
 fn total<F: Float<f32>>(sums: F) -> f32 {
     let [a, b, c, d, e, f, g, h] = sums.lanes();
-    (((a + e) + (c + g)) + ((b + f) + (d + h))) / PI
+    ((a + e) + (c + g)) + ((b + f) + (d + h))
 }

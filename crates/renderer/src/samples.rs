@@ -80,7 +80,7 @@ impl SampleSet {
 }
 
 /// A point of Sobol's sequence in the unit square.
-fn sobol(index: u32, [x, y]: [u32; 2]) -> DVec2 {
+pub(crate) fn sobol(index: u32, [x, y]: [u32; 2]) -> DVec2 {
     let (mut second, mut direction, mut rest) = (0, 1u32 << 31, index);
     while rest != 0 {
         if rest & 1 != 0 {
@@ -94,7 +94,7 @@ fn sobol(index: u32, [x, y]: [u32; 2]) -> DVec2 {
 }
 
 /// Stafford's variant 13 of the finalizer of MurmurHash3.
-fn mix(number: u64) -> u64 {
+pub(crate) fn mix(number: u64) -> u64 {
     let number = (number ^ number >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let number = (number ^ number >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
     number ^ number >> 31

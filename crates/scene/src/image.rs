@@ -19,6 +19,9 @@ pub struct ImageSettings {
     pub filter: PixelFilter,
     /// Samples per sub-pixel.
     pub samples: u32,
+    /// How many times as many samples a pixel may take that shows several faces of different
+    /// brightness.
+    pub adaptive: u32,
     /// Degrees between normals below which neighbouring faces are shaded as one smooth surface.
     pub crease_angle: f64,
     /// What radiance is multiplied by.
@@ -96,6 +99,7 @@ pub(crate) struct ImageTable {
     subpixels: Option<Spanned<u32>>,
     filter: Option<PixelFilter>,
     samples: Option<Spanned<u32>>,
+    adaptive: Option<Spanned<u32>>,
     crease_angle: Option<Spanned<f64>>,
     exposure: Option<Spanned<Exposure>>,
     #[serde(default)]
@@ -122,6 +126,7 @@ impl ImageTable {
             subpixels: count(&self.subpixels, 2, "`subpixels`")?,
             filter: self.filter.unwrap_or_default(),
             samples: count(&self.samples, 4, "`samples`")?,
+            adaptive: count(&self.adaptive, 1, "`adaptive`")?,
             crease_angle: value_or(
                 source,
                 self.crease_angle.as_ref(),

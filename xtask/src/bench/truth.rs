@@ -36,6 +36,8 @@ const TOLERANCE: f64 = 0.01;
 const WALKS: usize = 40_000_000;
 /// Size of the pictures, and passes of each of the two that the oracle makes.
 const PICTURE: (u32, u32) = (320, 240);
+/// So many times as many samples where a pixel shows several faces.
+const ADAPTIVE: u32 = 16;
 const PASSES: u32 = 16;
 /// Passes by which the oracle's speed is measured.
 const SPEED_PASSES: u32 = 3;
@@ -67,6 +69,8 @@ pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
             of_oracle.push(speed(&scene)?);
         }
         (scene.image.width, scene.image.height) = PICTURE;
+        // The error is to be that of the light, not of the samples along edges.
+        scene.image.adaptive = ADAPTIVE;
         let oracle = Oracle::of(&scene)?;
         of_oracle.extend(oracle.noise(name));
         let mut row = format!("| `{name}` |");

@@ -5,6 +5,17 @@ pub(super) const HALF_WIDTH: f64 = 2.0;
 /// Where it becomes negative.
 const ROOT: f64 = 8.0 / 7.0;
 
+/// The filter at a distance from its middle.
+pub(super) fn value(x: f64) -> f64 {
+    if x < 1.0 {
+        (16.0 / 3.0 + x * x * (-12.0 + 7.0 * x)) / 6.0
+    } else if x < HALF_WIDTH {
+        (32.0 / 3.0 + x * (-20.0 + x * (12.0 - x * 7.0 / 3.0))) / 6.0
+    } else {
+        0.0
+    }
+}
+
 /// The integral of the filter from its middle to `x` in [0, 2]; all of it is 1/2.
 fn integral(x: f64) -> f64 {
     if x < 1.0 {

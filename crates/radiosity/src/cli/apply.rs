@@ -73,6 +73,7 @@ impl DisplayArgs {
     pub(crate) fn apply(&self, scene: &mut Scene) {
         self.image.apply(scene);
         set(&mut scene.image.samples, self.samples);
+        set(&mut scene.image.adaptive, self.adaptive);
         set(&mut scene.image.crease_angle, self.crease_angle);
     }
 

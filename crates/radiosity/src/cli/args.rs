@@ -117,11 +117,11 @@ pub struct ImageArgs {
     /// Sub-pixels along each edge of a pixel
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub subpixels: Option<u32>,
-    /// How samples are spread around sub-pixels
+    /// How samples are spread around pixels and their parts
     #[arg(long, value_enum)]
     pub filter: Option<FilterArg>,
-    /// Factor from radiance to brightness, or auto: 98 % of the lit pixels are then less bright
-    /// than a screen
+    /// Factor from radiance to brightness, or auto: 98 % of the lit pixels of each picture are then
+    /// less bright than a screen
     #[arg(long, value_name = "X|auto", value_parser = parse_exposure, allow_negative_numbers = true)]
     pub exposure: Option<Exposure>,
     /// What becomes of what is brighter than a screen
@@ -155,6 +155,10 @@ pub struct DisplayArgs {
     /// patch-constant and a smooth picture, or as it is at every sample, in one picture
     #[arg(long, value_enum, default_value = "patches")]
     pub direct: DirectArg,
+    /// Take up to N times as many samples where a pixel shows several faces of different
+    /// brightness [default: 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub adaptive: Option<u32>,
     /// Folder for the pictures [default: out]
     #[arg(long, short, value_name = "DIR")]
     pub output: Option<PathBuf>,

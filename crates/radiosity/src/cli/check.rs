@@ -38,7 +38,7 @@ fn check_lines(scene: &Scene, needs: &Needs) -> Vec<String> {
         ),
     ];
     lines.extend(lights_line(scene));
-    if scene.camera.is_some() && scene.materials.iter().all(|m| m.emission == [0.0; 3]) {
+    if scene.camera.is_some() && scene.lights.is_empty() {
         lines.push(indented(
             "warning: nothing emits light; pictures will be black",
         ));

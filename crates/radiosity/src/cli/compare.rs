@@ -13,7 +13,7 @@ use radiosity_compare::{
     decode_regions, difference_picture, parse_table,
 };
 use radiosity_renderer::{Image, PictureFormat, Transfer, encode, encode_pfm};
-use radiosity_scene::Scene;
+use radiosity_scene::{ImageSettings, Scene, Tone};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -92,6 +92,13 @@ fn pictures(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Er
     };
     let picture = |path: &Path| decode_picture(&read(path)?, &screen).map_err(at(path));
     let (found, reference) = (picture(&args.found)?, picture(&args.reference)?);
+    let is_lost =
+        |image: &ImageSettings| image.tone != Tone::Clamp || image.exposure.factor().is_none();
+    if (found.levels || reference.levels) && args.exposure.is_none() && image.is_some_and(is_lost) {
+        let problem = "the scene's exposure is automatic, or its tone is a curve: levels do not tell \
+                       radiance\n   = help: compare .pfm files, or state the --exposure";
+        return Err(Error::Input(problem.to_owned()));
+    }
     let map = args.regions.as_deref();
     let map = map.map(|path| decode_regions(&read(path)?).map_err(at(path)));
     let map = map.transpose()?;

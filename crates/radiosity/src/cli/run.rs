@@ -98,6 +98,12 @@ fn display(args: &DisplayCommand, site: &Site) -> Result<(), Error> {
     if scene.camera.is_none() {
         return Err(Error::NoCamera);
     }
+    if args.solve.preview.is_some() && args.display.shadings().contains(&Shading::Exact) {
+        return Err(Error::Input(
+            "a preview does not know direct light apart\n   = help: leave out --preview, or --direct exact"
+                .to_owned(),
+        ));
+    }
     let folder = args.display.output.as_ref().unwrap_or(&site.output);
     make_folder(folder)?;
     let terminal = Terminal::new(args.estimate.json);

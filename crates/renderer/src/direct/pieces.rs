@@ -3,6 +3,9 @@
 use radiosity_geometry::DVec3;
 use std::f64::consts::TAU;
 
+/// The square of the sine of an angle that is a rounding.
+const SAME: f64 = 1e-28;
+
 /// Convex polygons of any plane, by the directions to their corners.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pieces {
@@ -32,6 +35,10 @@ impl Pieces {
             self.corners.extend_from_slice(corners);
             self.ends.push(self.corners.len());
         }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.ends.is_empty()
     }
 
     pub(super) fn iter(&self) -> impl Iterator<Item = &[DVec3]> {
@@ -75,11 +82,15 @@ impl Cutting {
         cone.clear();
         let mut from = last;
         for &to in rest.iter() {
-            cone.push(if shows_front {
+            let side = if shows_front {
                 to.cross(from)
             } else {
                 from.cross(to)
-            });
+            };
+            // Clipping may leave a corner twice, and an edge without a direction.
+            if side.length_squared() > SAME * from.length_squared() * to.length_squared() {
+                cone.push(side);
+            }
             from = to;
         }
         next.clear();

@@ -41,7 +41,11 @@ impl Transfer {
     }
 
     pub(super) fn quantizer(self) -> Quantizer {
-        let threshold = |k: usize| self.decode((k as f64 + 0.5) / 255.0) as f32;
+        // Black is black, however steep the curve.
+        let threshold = |k: usize| {
+            let brightness = self.decode((k as f64 + 0.5) / 255.0) as f32;
+            brightness.max(f32::MIN_POSITIVE)
+        };
         let thresholds = std::array::from_fn(threshold);
         let level = |x: f32| thresholds.partition_point(|threshold| *threshold <= x) as u8;
         let starts = (0..=PARTS).map(|k| level(k as f32 / PARTS as f32));
