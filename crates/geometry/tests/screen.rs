@@ -61,10 +61,11 @@ fn shown(screen: &Screen) -> Vec<Option<(u32, bool)>> {
             for set in InstructionSet::available() {
                 assert_eq!(look(set), seen, "{}", set.name());
             }
-            let _claimed = seen.iter().fold(0, |all, seen| {
-                assert_eq!(all & seen.lanes, 0, "two faces in one sample");
-                all | seen.lanes
+            let masks = || seen.iter().map(|seen| seen.lanes);
+            let (all_of_them, sum) = masks().fold((0, 0), |(all, sum), lanes| {
+                (all | lanes, sum + lanes.count_ones())
             });
+            assert_eq!(u8::count_ones(all_of_them), sum, "two faces in one sample");
             assert!(seen.iter().all(|seen| seen.lanes != 0));
             all.extend((0..LANES).map(|lane| {
                 let face = seen.iter().find(|seen| seen.lanes >> lane & 1 != 0)?;

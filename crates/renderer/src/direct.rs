@@ -7,16 +7,17 @@
 //! No sample is taken, and nothing is noisy: penumbrae are exact. Behind dozens of faces, as of a mesh,
 //! samples are cheaper, and are taken.
 
+mod clear;
 mod pieces;
 
 use crate::Rgb;
 use crate::fields::Fields;
 use crate::samples::{mix, sobol};
+use clear::clear_factors;
 pub(crate) use pieces::Cutting;
 use pieces::form_factor;
 use radiosity_geometry::{DVec2, DVec3, FaceId, Mesh, Occluders, Polygon};
-use radiosity_simd::{Float, LANES, Simd, angle};
-use std::f64::consts::TAU;
+use radiosity_simd::{Float, LANES, Simd};
 use std::sync::OnceLock;
 
 /// All emitters, and what stands before them.
@@ -272,46 +273,4 @@ impl Emitter {
         self.polygon
             .barycentric((fold - at.x).abs(), (fold - at.y).abs())
     }
-}
-
-/// The form factors of points to an emitter that all of them see whole; see [`form_factor`].
-#[inline(always)]
-fn clear_factors<S: Simd>(
-    simd: S,
-    emitter: &Emitter,
-    points: &Points<S::F64>,
-    normal: DVec3,
-) -> S::F64 {
-    let corners = emitter.polygon.corners();
-    let mut sum = simd.splat_f64(0.0);
-    let mut from = towards(simd, corners[corners.len() - 1], points);
-    for &corner in corners {
-        let to = towards(simd, corner, points);
-        let cross = [
-            from[1] * to[2] - from[2] * to[1],
-            from[2] * to[0] - from[0] * to[2],
-            from[0] * to[1] - from[1] * to[0],
-        ];
-        let normal = normal.to_array().map(|axis| simd.splat_f64(axis));
-        let length = dot(&cross, &cross).sqrt();
-        sum = sum + angle(simd, length, dot(&from, &to)) / length * dot(&cross, &normal);
-        from = to;
-    }
-    sum * simd.splat_f64(-1.0 / TAU)
-}
-
-/// The directions from points to a corner.
-#[inline(always)]
-fn towards<S: Simd>(simd: S, corner: DVec3, points: &Points<S::F64>) -> [S::F64; 3] {
-    let [x, y, z] = &points.at;
-    [
-        simd.splat_f64(corner.x) - *x,
-        simd.splat_f64(corner.y) - *y,
-        simd.splat_f64(corner.z) - *z,
-    ]
-}
-
-#[inline(always)]
-fn dot<F: Float<f64>>(a: &[F; 3], b: &[F; 3]) -> F {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

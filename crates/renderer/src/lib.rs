@@ -15,6 +15,7 @@ mod fields;
 mod hanging;
 mod image;
 mod interpolate;
+mod params;
 mod render;
 mod resample;
 mod samples;
@@ -25,7 +26,8 @@ mod vertex;
 pub use encode::{PictureFormat, encode, encode_deep_png, encode_pfm};
 pub use fields::Fields;
 pub use image::Image;
-pub use render::{ImageParams, Shading, render};
+pub use params::ImageParams;
+pub use render::{Shading, render};
 pub use tone::{Curve, DeepPicture, Exposure, Picture, ToneMap, Transfer};
 
 /// Red, green, blue.

@@ -4,74 +4,14 @@ use crate::Rgb;
 use crate::fields::Fields;
 use crate::image::Image;
 use crate::interpolate::{Local, Places};
+use crate::params::ImageParams;
 use crate::resample::filtered;
 use crate::samples::{SampleSet, SampleSets};
 use crate::shade::{Room, Shader};
-use radiosity_geometry::{Camera, DVec2, DVec3, Film, Mesh, Offsets, PixelFilter, Screen, Seen};
+use radiosity_geometry::{Camera, DVec2, DVec3, Mesh, Offsets, Screen, Seen};
 use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
 use rayon::prelude::*;
 use std::f32::consts::PI;
-
-/// How pictures are sampled.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ImageParams {
-    /// Pixels across.
-    pub width: u32,
-    /// Pixels down.
-    pub height: u32,
-    /// Sub-pixels along each edge of a pixel.
-    pub subpixels: u32,
-    /// How samples are spread around sub-pixels; wide filters take the mean of sub-pixels instead.
-    pub filter: PixelFilter,
-    /// Samples per sub-pixel.
-    pub samples: u32,
-    /// How many times as many samples a pixel may take that shows several faces of different
-    /// brightness; 1 for all as many.
-    pub adaptive: u32,
-    /// Seed of the sample positions.
-    pub seed: u64,
-    /// Degrees between normals below which neighbouring triangles are shaded as one smooth
-    /// surface.
-    pub crease_angle: f64,
-}
-
-impl Default for ImageParams {
-    /// The course's pictures.
-    fn default() -> ImageParams {
-        ImageParams {
-            width: 640,
-            height: 480,
-            subpixels: 2,
-            filter: PixelFilter::default(),
-            samples: 4,
-            adaptive: 1,
-            seed: 0,
-            crease_angle: 30.0,
-        }
-    }
-}
-
-impl ImageParams {
-    /// For a picture of sub-pixels, each of which is a pixel.
-    fn of_parts(&self) -> ImageParams {
-        ImageParams {
-            width: self.width * self.subpixels,
-            height: self.height * self.subpixels,
-            subpixels: 1,
-            filter: PixelFilter::Box,
-            ..*self
-        }
-    }
-
-    fn film(&self) -> Film {
-        Film {
-            width: self.width,
-            height: self.height,
-            subpixels: self.subpixels,
-            filter: self.filter,
-        }
-    }
-}
 
 /// How the light on patches is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
