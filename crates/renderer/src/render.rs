@@ -1,4 +1,4 @@
-//! Stage 4: rays from the camera.
+//! Stage 4: pictures, pixel by pixel.
 
 use crate::Rgb;
 use crate::fields::Fields;
