@@ -117,7 +117,14 @@ impl<'a> Pipeline<'a> {
     pub fn pictures(&self, light: &PatchLight, shadings: &[Shading]) -> Result<Vec<Image>, Error> {
         let camera = self.scene.camera.as_ref().ok_or(Error::NoCamera)?;
         let params = settings::image_params(self.scene);
-        check_image(params.width, params.height)?;
+        // Wide filters take the mean of sub-pixels, which are pixels first.
+        let parts = if params.filter.is_wide() {
+            params.subpixels
+        } else {
+            1
+        };
+        let rows = params.height * parts;
+        check_image(params.width * parts, rows)?;
         let to_f32 = |rgb: &[f64; 3]| rgb.map(|channel| channel as f32);
         let emission = self.dimmed_emission();
         let reflectance: Vec<[f32; 3]> = self.reflectance.iter().map(to_f32).collect();
@@ -128,8 +135,7 @@ impl<'a> Pipeline<'a> {
             direct: &light.direct,
             visible: &light.visible,
         };
-        self.observer
-            .begin(Stage::Display, u64::from(params.height));
+        self.observer.begin(Stage::Display, u64::from(rows));
         let advance = |rows| self.observer.advance(rows);
         let pictures = renderer::render(&self.mesh, &fields, camera, &params, shadings, &advance);
         self.observer.end();

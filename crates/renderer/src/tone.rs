@@ -6,6 +6,7 @@ mod transfer;
 
 use crate::Rgb;
 use crate::image::Image;
+use crate::samples::mix;
 pub use curve::Curve;
 use rayon::prelude::*;
 pub use transfer::Transfer;
@@ -152,16 +153,10 @@ impl ToneMap {
     }
 }
 
-/// Uniform in [0, 1), and as good as independent from pixel to pixel (Jarzynski & Olano, "Hash
-/// Functions for GPU Rendering", 2020: PCG).
+/// Uniform in [0, 1), and as good as independent from pixel to pixel.
 fn noise([x, y, c]: [u32; 3]) -> f32 {
-    let seed = x
-        .wrapping_mul(3)
-        .wrapping_add(c)
-        .wrapping_add(y.wrapping_mul(0x9e37_79b9));
-    let state = seed.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
-    let word = (state >> ((state >> 28) + 4) ^ state).wrapping_mul(277_803_737);
-    ((word >> 22 ^ word) >> 8) as f32 / (1 << 24) as f32
+    let hash = mix(mix(u64::from(y) << 32 | u64::from(x)) ^ u64::from(c));
+    (hash >> 40) as f32 / (1 << 24) as f32
 }
 
 #[cfg(test)]

@@ -53,12 +53,12 @@ struct Course {
 }
 
 impl<'a> ConjugateGradients<'a> {
+    /// Begins at values whose sums are known.
     pub(crate) fn new(
         problem: &'a Problem<'a>,
-        mut x: Values<f32>,
+        (x, sums): (Values<f32>, [Values<f64>; 2]),
         tolerance: f64,
     ) -> ConjugateGradients<'a> {
-        let sums = all_joined(&problem.sums(&mut x));
         let mut iteration = ConjugateGradients {
             problem,
             tolerance,
@@ -71,7 +71,7 @@ impl<'a> ConjugateGradients<'a> {
             verified: None,
             best: f64::INFINITY,
         };
-        iteration.restart(&x, &sums);
+        iteration.restart(&x, &all_joined(&sums));
         iteration
     }
 

@@ -67,12 +67,12 @@ pub(crate) struct GaussSeidel<'a> {
 }
 
 impl<'a> GaussSeidel<'a> {
+    /// Begins at values whose sums are known.
     pub(crate) fn new(
         problem: &'a Problem<'a>,
-        mut x: Values<f32>,
+        (x, sums): (Values<f32>, [Values<f64>; 2]),
         relaxation: Relaxation,
     ) -> GaussSeidel<'a> {
-        let sums = problem.sums(&mut x);
         let (factor, is_automatic) = match relaxation {
             Relaxation::Factor(factor) => (factor, false),
             Relaxation::Automatic => (1.0, true),

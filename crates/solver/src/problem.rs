@@ -84,11 +84,10 @@ impl<'a> Problem<'a> {
         self.emission.iter().map(to_f32).collect()
     }
 
-    /// What is reflected of the emission at the first place that it comes to.
-    pub(crate) fn direct(&self) -> Values<f32> {
-        let sums = self.sums(&mut self.emitted());
+    /// What is reflected where sums arrive.
+    pub(crate) fn reflected(&self, sums: &[Values<f64>; 2]) -> Values<f32> {
         let at = |k: usize| -> Triple<f32> {
-            let (sum, gain) = (joined(&sums, k), &self.gain[k / self.lights()]);
+            let (sum, gain) = (joined(sums, k), &self.gain[k / self.lights()]);
             std::array::from_fn(|c| (gain[c] * sum[c]) as f32)
         };
         (0..self.emission.len()).map(at).collect()

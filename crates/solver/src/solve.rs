@@ -85,13 +85,22 @@ pub fn solve(
 ) -> Result<Solution, SolveError> {
     diagnosis::check_materials(system)?;
     let problem = Problem::new(system);
-    let direct = problem.to_lights(&problem.direct());
-    let x = start.map_or_else(|| problem.emitted(), |start| problem.of_lights(start));
+    let mut x = problem.emitted();
+    let mut sums = problem.sums(&mut x);
+    let direct = problem.to_lights(&problem.reflected(&sums));
+    if let Some(start) = start {
+        x = problem.of_lights(start);
+        sums = problem.sums(&mut x);
+    }
     let mut iteration: Box<dyn Iteration + '_> = match params.method {
-        Method::GaussSeidel(relaxation) => Box::new(GaussSeidel::new(&problem, x, relaxation)),
-        Method::ConjugateGradients => {
-            Box::new(ConjugateGradients::new(&problem, x, params.tolerance))
+        Method::GaussSeidel(relaxation) => {
+            Box::new(GaussSeidel::new(&problem, (x, sums), relaxation))
         }
+        Method::ConjugateGradients => Box::new(ConjugateGradients::new(
+            &problem,
+            (x, sums),
+            params.tolerance,
+        )),
     };
     let first_residual = iteration.first_residual();
     let mut residuals: Vec<f64> = Vec::new();

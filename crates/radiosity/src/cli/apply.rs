@@ -1,11 +1,10 @@
 //! Flags override what the scene says.
 
-use super::args::{DisplayArgs, EstimateArgs, ImageArgs, SceneArgs};
-use super::choices::{DirectArg, FilterArg, ModeArg, ToneArg};
+use super::args::{EstimateArgs, SceneArgs};
+use super::choices::ModeArg;
 use super::terminal::tell;
-use radiosity_geometry::{Divisions, PixelFilter};
-use radiosity_renderer::Shading;
-use radiosity_scene::{Mode, Scene, Tone};
+use radiosity_geometry::Divisions;
+use radiosity_scene::{Mode, Scene};
 
 impl SceneArgs {
     pub(crate) fn apply(&self, scene: &mut Scene) {
@@ -44,49 +43,8 @@ impl EstimateArgs {
     }
 }
 
-impl ImageArgs {
-    pub(crate) fn apply(&self, scene: &mut Scene) {
-        let image = &mut scene.image;
-        set(&mut image.width, self.size.map(|(width, _)| width));
-        set(&mut image.height, self.size.map(|(_, height)| height));
-        set(&mut image.subpixels, self.subpixels);
-        let filter = self.filter.map(|filter| match filter {
-            FilterArg::Tents => PixelFilter::Tents,
-            FilterArg::Box => PixelFilter::Box,
-            FilterArg::Tent => PixelFilter::Tent,
-            FilterArg::Mitchell => PixelFilter::Mitchell,
-        });
-        set(&mut image.filter, filter);
-        set(&mut image.exposure, self.exposure);
-        let tone = self.tone.map(|tone| match tone {
-            ToneArg::Clamp => Tone::Clamp,
-            ToneArg::Reinhard => Tone::Reinhard,
-            ToneArg::Filmic => Tone::Filmic,
-        });
-        set(&mut image.tone, tone);
-        set(&mut image.gamma, self.gamma);
-        image.dither |= self.dither;
-    }
-}
-
-impl DisplayArgs {
-    pub(crate) fn apply(&self, scene: &mut Scene) {
-        self.image.apply(scene);
-        set(&mut scene.image.samples, self.samples);
-        set(&mut scene.image.adaptive, self.adaptive);
-        set(&mut scene.image.crease_angle, self.crease_angle);
-    }
-
-    /// The pictures that are asked for.
-    pub(crate) fn shadings(&self) -> &'static [Shading] {
-        match self.direct {
-            DirectArg::Patches => &[Shading::Constant, Shading::Smooth],
-            DirectArg::Exact => &[Shading::Exact],
-        }
-    }
-}
-
-fn set<T>(setting: &mut T, flag: Option<T>) {
+/// A flag's value, if it is given.
+pub(super) fn set<T>(setting: &mut T, flag: Option<T>) {
     if let Some(value) = flag {
         *setting = value;
     }

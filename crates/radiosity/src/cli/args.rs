@@ -1,15 +1,15 @@
 //! The command line, as clap reads it.
 
-use super::choices::{ByArg, DirectArg, FilterArg, FormatArg, ModeArg, ToneArg};
+use super::choices::{ByArg, ModeArg};
+use super::image_args::{DisplayArgs, ImageArgs, OF_PICTURES};
 use super::light_args::LightArgs;
 use super::parse::{
-    parse_angle, parse_counts, parse_csv_path, parse_difference_path, parse_exposure, parse_gamma,
-    parse_matrix_path, parse_positive, parse_row_tolerance, parse_size, parse_svg_path,
-    parse_threshold,
+    parse_counts, parse_csv_path, parse_difference_path, parse_gamma, parse_matrix_path,
+    parse_positive, parse_row_tolerance, parse_svg_path, parse_threshold,
 };
 use super::solver_args::SolveArgs;
 use clap::{Args, Subcommand};
-use radiosity_scene::{Exposure, Gamma};
+use radiosity_scene::Gamma;
 use std::path::PathBuf;
 
 /// The stages, and what helps with them.
@@ -95,76 +95,6 @@ pub struct CacheArgs {
     /// Compute everything, read and write no cached file
     #[arg(long, conflicts_with = "folder")]
     pub no_cache: bool,
-}
-
-/// The flags of [`ImageArgs`].
-const OF_PICTURES: [&str; 7] = [
-    "size",
-    "subpixels",
-    "filter",
-    "exposure",
-    "tone",
-    "gamma",
-    "dither",
-];
-
-/// What a picture is like, however it is made.
-#[derive(Debug, Args)]
-pub struct ImageArgs {
-    /// Size of the picture in pixels, as WIDTHxHEIGHT
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
-    pub size: Option<(u32, u32)>,
-    /// Sub-pixels along each edge of a pixel
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
-    pub subpixels: Option<u32>,
-    /// How samples are spread around pixels and their parts
-    #[arg(long, value_enum)]
-    pub filter: Option<FilterArg>,
-    /// Factor from radiance to brightness, or auto: 98 % of the lit pixels of each picture are then
-    /// less bright than a screen
-    #[arg(long, value_name = "X|auto", value_parser = parse_exposure, allow_negative_numbers = true)]
-    pub exposure: Option<Exposure>,
-    /// What becomes of what is brighter than a screen
-    #[arg(long, value_enum)]
-    pub tone: Option<ToneArg>,
-    /// Exponent of the screen, or srgb
-    #[arg(long, value_name = "X|srgb", value_parser = parse_gamma, allow_negative_numbers = true)]
-    pub gamma: Option<Gamma>,
-    /// Dither levels: no bands in smooth gradients
-    #[arg(long)]
-    pub dither: bool,
-}
-
-/// How pictures are made.
-#[derive(Debug, Args)]
-#[allow(
-    missing_docs,
-    reason = "comments on flattened fields would replace help texts"
-)]
-pub struct DisplayArgs {
-    #[command(flatten)]
-    pub image: ImageArgs,
-    /// Degrees between normals below which neighbouring faces of a mesh are shaded as one smooth
-    /// surface [default: 30]
-    #[arg(long, value_name = "DEGREES", value_parser = parse_angle, allow_negative_numbers = true)]
-    pub crease_angle: Option<f64>,
-    /// Samples per sub-pixel
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
-    pub samples: Option<u32>,
-    /// How light that comes straight from emitters is shown: as patches have it, in a
-    /// patch-constant and a smooth picture, or as it is at every sample, in one picture
-    #[arg(long, value_enum, default_value = "patches")]
-    pub direct: DirectArg,
-    /// Take up to N times as many samples where a pixel shows several faces of different
-    /// brightness [default: 1]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
-    pub adaptive: Option<u32>,
-    /// Folder for the pictures [default: out]
-    #[arg(long, short, value_name = "DIR")]
-    pub output: Option<PathBuf>,
-    /// File formats of the pictures
-    #[arg(long, value_enum, value_delimiter = ',', default_values = ["ppm", "png"])]
-    pub format: Vec<FormatArg>,
 }
 
 /// `form-factors`.

@@ -35,7 +35,7 @@ pub enum FilterArg {
     Box,
     /// A tent around the pixel that reaches the neighbours' centres
     Tent,
-    /// Mitchell and Netravali's cubic: sharp, without steps
+    /// Mitchell and Netravali's cubic: sharp, but with dark lines round lamps far brighter than a screen
     Mitchell,
 }
 

@@ -7,6 +7,7 @@ mod check;
 mod choices;
 mod compare;
 mod form_factors;
+mod image_args;
 mod inspect;
 mod light_args;
 mod parse;
@@ -17,10 +18,10 @@ mod solver_args;
 pub(crate) mod terminal;
 
 pub use args::{
-    CacheAction, CacheArgs, CacheCommand, CheckArgs, Command, CompareCommand, DisplayArgs,
-    DisplayCommand, EstimateArgs, FormFactorsCommand, ImageArgs, InspectCommand, ReferenceCommand,
-    SceneArgs, SolveCommand,
+    CacheAction, CacheArgs, CacheCommand, CheckArgs, Command, CompareCommand, DisplayCommand,
+    EstimateArgs, FormFactorsCommand, InspectCommand, ReferenceCommand, SceneArgs, SolveCommand,
 };
+pub use image_args::{DisplayArgs, ImageArgs};
 pub use light_args::LightArgs;
 pub use run::run;
 pub use site::Site;

@@ -1,11 +1,12 @@
 //! What each command does.
 
-use super::args::{Command, DisplayArgs, DisplayCommand, EstimateArgs, SolveCommand};
+use super::args::{Command, DisplayCommand, EstimateArgs, SolveCommand};
 use super::cache_folder;
 use super::check;
 use super::choices::FormatArg;
 use super::compare;
 use super::form_factors;
+use super::image_args::DisplayArgs;
 use super::inspect;
 use super::reference;
 use super::site::Site;
