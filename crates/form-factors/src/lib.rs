@@ -176,6 +176,13 @@ impl FormFactors {
         }
     }
 
+    /// `F_ij` for all `j`.
+    pub fn row(&self, i: usize) -> Vec<f64> {
+        let scale = self.areas.iter().sum::<f64>() / self.areas[i];
+        let factor = |j| f64::from(self.exchange.get(i, j)) * scale;
+        (0..self.areas.len()).map(factor).collect()
+    }
+
     /// `F_ij`: the share of the power leaving patch `i` that arrives at patch `j`.
     pub fn factor(&self, i: usize, j: usize) -> f64 {
         let total: f64 = self.areas.iter().sum();

@@ -8,7 +8,7 @@
 //! | 1 | [`geometry::subdivide`] | surfaces | [`geometry::Mesh`] |
 //! | 2 | [`form_factors::estimate`] | the mesh | [`form_factors::FormFactors`] |
 //! | 3 | [`solver::solve`] | form factors and materials | [`solver::Solution`] |
-//! | 4 | [`renderer::render`] | mesh, radiosities, camera | [`renderer::Image`] |
+//! | 4 | [`renderer::Renderer::render`] | mesh, radiosities, camera | [`renderer::Image`] |
 //!
 //! Form factors and solutions are kept in a [`cache::Store`], each under the digest of what its
 //! stage reads, so a changed lamp does not touch form factors and a changed camera touches
@@ -50,7 +50,7 @@ pub use error::Error;
 pub use export::{cells, radiosity_table, reference_table};
 pub use factor_export::{By, FactorTable};
 pub use observer::{Observer, Silent, Stage};
-pub use pipeline::{FormFactorsMade, PatchLight, Pipeline, Preview, Solved};
+pub use pipeline::{FormFactorsMade, PatchLight, Pipeline, Preview, Quantity, Shown, Solved};
 pub use rows::RowSummary;
 
 pub use radiosity_cache as cache;

@@ -3,20 +3,20 @@
 use crate::artifact::Origin;
 use crate::error::Error;
 use crate::facts::{self, CLOSURE, FORM_FACTORS};
-use crate::observer::{Observer, Stage};
-use crate::resources::check_image;
+use crate::observer::Observer;
 use crate::rows::RowSummary;
 use crate::settings;
 use radiosity_cache::{Id, Key, Store};
 use radiosity_form_factors::{self as form_factors, FormFactors};
 use radiosity_geometry::{self as geometry, Mesh};
-use radiosity_renderer::{self as renderer, Fields, Image, Shading};
 use radiosity_scene::{Material, Mode, Scene};
 
 mod factors;
+mod pictures;
 mod preview;
 mod solution;
 
+pub use pictures::{Quantity, Shown};
 pub use preview::Preview;
 pub use solution::Solved;
 pub(crate) use solution::Start;
@@ -111,35 +111,6 @@ impl<'a> Pipeline<'a> {
     /// The patches.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
-    }
-
-    /// Stage 4: a picture of what patches shine with by each of some shadings, in that order.
-    pub fn pictures(&self, light: &PatchLight, shadings: &[Shading]) -> Result<Vec<Image>, Error> {
-        let camera = self.scene.camera.as_ref().ok_or(Error::NoCamera)?;
-        let params = settings::image_params(self.scene);
-        // Wide filters take the mean of sub-pixels, which are pixels first.
-        let parts = if params.filter.is_wide() {
-            params.subpixels
-        } else {
-            1
-        };
-        let rows = params.height * parts;
-        check_image(params.width * parts, rows)?;
-        let to_f32 = |rgb: &[f64; 3]| rgb.map(|channel| channel as f32);
-        let emission = self.dimmed_emission();
-        let reflectance: Vec<[f32; 3]> = self.reflectance.iter().map(to_f32).collect();
-        let fields = Fields {
-            emission: &emission,
-            reflectance: &reflectance,
-            radiosity: &light.radiosity,
-            direct: &light.direct,
-            visible: &light.visible,
-        };
-        self.observer.begin(Stage::Display, u64::from(rows));
-        let advance = |rows| self.observer.advance(rows);
-        let pictures = renderer::render(&self.mesh, &fields, camera, &params, shadings, &advance);
-        self.observer.end();
-        Ok(pictures)
     }
 
     /// The name of the surface that a patch belongs to.

@@ -54,7 +54,6 @@ pub(crate) fn image_params(scene: &Scene) -> ImageParams {
         samples: image.samples,
         adaptive: image.adaptive,
         seed: image.seed,
-        crease_angle: image.crease_angle,
     }
 }
 

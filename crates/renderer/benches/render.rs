@@ -4,7 +4,7 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use radiosity_geometry::{Camera, DVec3, Divisions, Mesh, Shape, Surface, subdivide};
-use radiosity_renderer::{Fields, ImageParams, Shading, render};
+use radiosity_renderer::{Fields, ImageParams, Renderer, Shading};
 
 const BOTH: [Shading; 2] = [Shading::Constant, Shading::Smooth];
 
@@ -74,6 +74,7 @@ fn pictures(criterion: &mut Criterion) {
         let radiosity: Vec<[f32; 3]> = (0..mesh.patches.len()).map(value).collect();
         let same = vec![[0.5; 3]; radiosity.len()];
         let fields = Fields {
+            sources: &same,
             emission: &same,
             reflectance: &same,
             radiosity: &radiosity,
@@ -81,7 +82,7 @@ fn pictures(criterion: &mut Criterion) {
             visible: &vec![1.0; radiosity.len()],
         };
         group.bench_function(name, |b| {
-            b.iter(|| render(&mesh, &fields, &camera, &params, &BOTH, &|_| ()));
+            b.iter(|| Renderer::new(&mesh, &fields, 30.0, &BOTH).render(&camera, &params, &|_| ()));
         });
     }
     group.finish();

@@ -11,7 +11,6 @@ mod clear;
 mod pieces;
 
 use crate::Rgb;
-use crate::fields::Fields;
 use crate::samples::{mix, sobol};
 use clear::clear_factors;
 pub(crate) use pieces::Cutting;
@@ -62,11 +61,12 @@ pub(crate) struct Points<F> {
 }
 
 impl<'a> DirectLight<'a> {
-    pub(crate) fn new(mesh: &'a Mesh, fields: &Fields<'_>) -> DirectLight<'a> {
+    /// From what patches emit.
+    pub(crate) fn new(mesh: &'a Mesh, sources: &[Rgb]) -> DirectLight<'a> {
         let ids = (0..mesh.faces.len() as u32).map(FaceId);
         let emitter = |id: FaceId| {
             let face = &mesh.faces[id.index()];
-            let exitance = face.patches().next().map(|patch| fields.emission[patch]);
+            let exitance = face.patches().next().map(|patch| sources[patch]);
             let exitance = exitance.filter(|exitance| *exitance != [0.0; 3])?;
             Some(Emitter {
                 face: id,

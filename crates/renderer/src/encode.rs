@@ -1,7 +1,8 @@
 //! Pictures as files' bytes.
 
 use crate::image::Image;
-use crate::tone::{DeepPicture, Picture, Transfer};
+use crate::picture::{DeepPicture, Picture};
+use crate::tone::Transfer;
 
 /// File formats for 8-bit pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,14 +2,18 @@
 
 use crate::Rgb;
 
-/// What is known of each patch; all slices are indexed by patch.
+/// What is shown of each patch; all slices are indexed by patch. It is the radiosity, or another
+/// quantity that is made in the same way: irradiance, for one, is shown by a reflectance of 1 and an
+/// emission of 0.
 #[derive(Clone, Copy, Debug)]
 pub struct Fields<'a> {
-    /// Radiant exitance the patch emits itself, W/m^2.
+    /// Radiant exitance that patches send to others, W/m^2: where direct light comes from.
+    pub sources: &'a [Rgb],
+    /// What is shown of it on the patch itself.
     pub emission: &'a [Rgb],
-    /// Diffuse reflectance, in [0, 1].
+    /// Diffuse reflectance, in [0, 1]: how much is shown of direct light.
     pub reflectance: &'a [Rgb],
-    /// Radiosity, W/m^2.
+    /// Radiosity, W/m^2: all that is shown.
     pub radiosity: &'a [Rgb],
     /// The part of it that is light straight from emitters, reflected once.
     pub direct: &'a [Rgb],

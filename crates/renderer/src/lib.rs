@@ -11,24 +11,33 @@ mod bicubic;
 mod direct;
 mod encode;
 mod exposed;
+mod false_color;
 mod fields;
 mod hanging;
 mod image;
 mod interpolate;
+mod lettering;
+mod lines;
 mod params;
+mod picture;
 mod render;
 mod resample;
 mod samples;
 mod shade;
+mod sheet;
 mod tone;
 mod vertex;
 
 pub use encode::{PictureFormat, encode, encode_deep_png, encode_pfm};
+pub use false_color::{ColorScale, with_legend};
 pub use fields::Fields;
-pub use image::Image;
+pub use image::{Image, Values};
+pub use lines::Outlines;
 pub use params::ImageParams;
-pub use render::{Shading, render};
-pub use tone::{Curve, DeepPicture, Exposure, Picture, ToneMap, Transfer};
+pub use picture::{DeepPicture, Picture};
+pub use render::{Renderer, Shading};
+pub use sheet::contact_sheet;
+pub use tone::{Curve, Exposure, ToneMap, Transfer};
 
 /// Red, green, blue.
 pub type Rgb = [f32; 3];

@@ -20,9 +20,6 @@ pub struct ImageParams {
     pub adaptive: u32,
     /// Seed of the sample positions.
     pub seed: u64,
-    /// Degrees between normals below which neighbouring triangles are shaded as one smooth
-    /// surface.
-    pub crease_angle: f64,
 }
 
 impl Default for ImageParams {
@@ -36,7 +33,6 @@ impl Default for ImageParams {
             samples: 4,
             adaptive: 1,
             seed: 0,
-            crease_angle: 30.0,
         }
     }
 }

@@ -29,61 +29,77 @@ impl Shading {
     const COUNT: usize = 3;
 }
 
-/// Renders a picture by each of some shadings. `progress` is told how many further rows are done,
-/// from any thread.
-///
-/// # Panics
-///
-/// If a shading is asked for twice.
-pub fn render(
-    mesh: &Mesh,
-    fields: &Fields<'_>,
-    camera: &Camera,
-    params: &ImageParams,
-    shadings: &[Shading],
-    progress: &(dyn Fn(u64) + Sync),
-) -> Vec<Image> {
-    let is_new = |k: usize| !shadings[..k].contains(&shadings[k]);
-    assert!((0..shadings.len()).all(is_new), "each shading once");
-    if params.filter.is_wide() {
-        let parts = render(mesh, fields, camera, &params.of_parts(), shadings, progress);
-        let images = parts
-            .iter()
-            .map(|parts| filtered(parts, params.subpixels, params.filter));
-        return images.collect();
+/// The light on a mesh, ready to be looked at from anywhere.
+pub struct Renderer<'a> {
+    mesh: &'a Mesh,
+    shader: Shader<'a>,
+}
+
+impl<'a> Renderer<'a> {
+    /// For pictures by each of some shadings. Neighbouring faces of a surface are shaded as one where
+    /// the angle between their normals is below the crease angle, in degrees.
+    ///
+    /// # Panics
+    ///
+    /// If a shading is asked for twice.
+    pub fn new(
+        mesh: &'a Mesh,
+        fields: &Fields<'a>,
+        crease_angle: f64,
+        shadings: &[Shading],
+    ) -> Renderer<'a> {
+        let is_new = |k: usize| !shadings[..k].contains(&shadings[k]);
+        assert!((0..shadings.len()).all(is_new), "each shading once");
+        Renderer {
+            mesh,
+            shader: Shader::new(mesh, fields, crease_angle, shadings),
+        }
     }
-    let film = params.film();
-    let view = View {
-        film: camera.film(film.width, film.height),
-        screen: Screen::new(mesh, camera, (film.width, film.height), film.reach()),
-        shader: Shader::new(mesh, fields, params.crease_angle, shadings),
-        samples: SampleSets::new(&film, params.samples, params.seed),
-        most_rounds: params.adaptive,
-        mesh,
-        camera,
-    };
-    let (width, height) = (params.width as usize, params.height as usize);
-    let mut pixels = vec![[0.0; 3]; width * height * shadings.len()];
-    let rows = pixels.par_chunks_mut((width * shadings.len()).max(1));
-    rows.enumerate().for_each(|(y, row)| {
-        dispatch(Row {
-            view: &view,
-            y: y as u32,
-            row,
+
+    /// What a camera sees: a picture by each of the shadings. `progress` is told how many further rows
+    /// are done, from any thread.
+    pub fn render(
+        &self,
+        camera: &Camera,
+        params: &ImageParams,
+        progress: &(dyn Fn(u64) + Sync),
+    ) -> Vec<Image> {
+        if params.filter.is_wide() {
+            let parts = self.render(camera, &params.of_parts(), progress);
+            let images = parts
+                .iter()
+                .map(|parts| filtered(parts, params.subpixels, params.filter));
+            return images.collect();
+        }
+        let film = params.film();
+        let view = View {
+            film: camera.film(film.width, film.height),
+            screen: Screen::new(self.mesh, camera, (film.width, film.height), film.reach()),
+            shader: &self.shader,
+            samples: SampleSets::new(&film, params.samples, params.seed),
+            most_rounds: params.adaptive,
+            mesh: self.mesh,
+            camera,
+        };
+        let (width, height) = (params.width as usize, params.height as usize);
+        let count = self.shader.shadings().len();
+        let mut pixels = vec![[0.0; 3]; width * height * count];
+        let rows = pixels.par_chunks_mut((width * count).max(1));
+        rows.enumerate().for_each(|(y, row)| {
+            dispatch(Row {
+                view: &view,
+                y: y as u32,
+                row,
+            });
+            progress(1);
         });
-        progress(1);
-    });
-    let image = |k: usize| Image {
-        width: params.width,
-        height: params.height,
-        pixels: pixels
-            .iter()
-            .skip(k)
-            .step_by(shadings.len())
-            .copied()
-            .collect(),
-    };
-    (0..shadings.len()).map(image).collect()
+        let image = |k: usize| Image {
+            width: params.width,
+            height: params.height,
+            pixels: pixels.iter().skip(k).step_by(count).copied().collect(),
+        };
+        (0..count).map(image).collect()
+    }
 }
 
 struct View<'a> {
@@ -92,7 +108,7 @@ struct View<'a> {
     /// The directions of rays: [`Camera::film`].
     film: [DVec3; 3],
     screen: Screen,
-    shader: Shader<'a>,
+    shader: &'a Shader<'a>,
     samples: SampleSets,
     most_rounds: u32,
 }

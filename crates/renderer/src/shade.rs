@@ -47,7 +47,7 @@ impl<'a> Shader<'a> {
             exposed(fields, k, [rest(0), rest(1), rest(2)], [0.0; 3])
         };
         let exact = || Exact {
-            direct: DirectLight::new(mesh, fields),
+            direct: DirectLight::new(mesh, fields.sources),
             indirect: interpolant(&indirect),
         };
         Shader {

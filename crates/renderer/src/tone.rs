@@ -6,6 +6,7 @@ mod transfer;
 
 use crate::Rgb;
 use crate::image::Image;
+use crate::picture::{DeepPicture, Picture};
 use crate::samples::mix;
 pub use curve::Curve;
 use rayon::prelude::*;
@@ -34,28 +35,6 @@ pub enum Exposure {
         /// From 0 to 1.
         percentile: f64,
     },
-}
-
-/// An 8-bit picture, ready for display, row by row from the top left.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Picture {
-    /// Pixels across.
-    pub width: u32,
-    /// Pixels down.
-    pub height: u32,
-    /// Red, green and blue of each pixel.
-    pub bytes: Vec<u8>,
-}
-
-/// The same of 16 bits.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct DeepPicture {
-    /// Pixels across.
-    pub width: u32,
-    /// Pixels down.
-    pub height: u32,
-    /// Red, green and blue of each pixel.
-    pub levels: Vec<u16>,
 }
 
 /// The luminance of linear sRGB (ITU-R BT.709, item 3.2).

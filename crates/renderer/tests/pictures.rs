@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use radiosity_geometry::{Camera, DVec3, Divisions, Mesh, PolygonMesh, Shape, Surface, subdivide};
-use radiosity_renderer::{Fields, Image, ImageParams, Shading, render};
+use radiosity_renderer::{Fields, Image, ImageParams, Renderer, Shading};
 use std::f32::consts::PI;
 
 fn cut(shapes: Vec<Shape>, divisions: u32) -> Mesh {
@@ -38,7 +38,8 @@ fn view(mesh: &Mesh, fields: &Fields<'_>, center: DVec3, height: f64, pixels: u3
         ..ImageParams::default()
     };
     let shadings = [Shading::Constant, Shading::Smooth];
-    let pictures = render(mesh, fields, &camera, &params, &shadings, &|_| ());
+    let renderer = Renderer::new(mesh, fields, 30.0, &shadings);
+    let pictures = renderer.render(&camera, &params, &|_| ());
     pictures.try_into().expect("a picture for each shading")
 }
 
@@ -46,6 +47,7 @@ fn view(mesh: &Mesh, fields: &Fields<'_>, center: DVec3, height: f64, pixels: u3
 fn with_fields<T>(radiosity: &[[f32; 3]], f: impl FnOnce(&Fields<'_>) -> T) -> T {
     let same = vec![[0.5; 3]; radiosity.len()];
     f(&Fields {
+        sources: &same,
         emission: &same,
         reflectance: &same,
         radiosity,
@@ -95,7 +97,9 @@ fn whatever_lies_before_the_near_distance_is_not_seen() {
             height: 1,
             ..ImageParams::default()
         };
-        let look = |f: &Fields<'_>| render(&mesh, f, &camera, &params, &[Shading::Smooth], &|_| ());
+        let look = |f: &Fields<'_>| {
+            Renderer::new(&mesh, f, 30.0, &[Shading::Smooth]).render(&camera, &params, &|_| ())
+        };
         with_fields(&radiosity, look)[0].pixels[0][0]
     };
     assert!((look(0.0) - 5.0).abs() < 1e-5);
@@ -254,6 +258,7 @@ fn hidden_parts_do_not_darken_what_is_seen() {
         let radiosity: Vec<[f32; 3]> = visible.iter().map(|share| [2.0 * share; 3]).collect();
         let dark = vec![[0.0; 3]; radiosity.len()];
         let fields = Fields {
+            sources: &dark,
             emission: &dark,
             reflectance: &dark,
             radiosity: &radiosity,
@@ -277,6 +282,7 @@ fn materials_and_creases_keep_their_edges() {
         .map(|k| [if k < 64 { 0.2 } else { 0.9 }; 3])
         .collect();
     let fields = Fields {
+        sources: &vec![[0.0; 3]; 128],
         emission: &vec![[0.0; 3]; 128],
         reflectance: &reflectance,
         radiosity: &radiosity,

@@ -1,0 +1,175 @@
+//! Stage 4 of the chain: what is shown, and pictures of it.
+
+use super::{PatchLight, Pipeline};
+use crate::artifact::Sources;
+use crate::error::Error;
+use crate::observer::Stage;
+use crate::resources::check_image;
+use crate::settings;
+use radiosity_form_factors::FormFactors;
+use radiosity_geometry::Camera;
+use radiosity_renderer::{Fields, Image, Renderer, Shading};
+
+/// What of the light is shown, or of what it was made from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// All that leaves patches, W/m^2.
+    Radiosity,
+    /// The part of it that is emitted, or reflected once.
+    Direct,
+    /// The part that is reflected more often.
+    Indirect,
+    /// All that arrives at patches, W/m^2.
+    Irradiance,
+    /// The estimated sum of the absolute errors of a patch's form factors.
+    Error,
+    /// The form factors from one patch, by its index, to all others.
+    FactorsFrom(usize),
+}
+
+/// A quantity on all patches.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    sources: Vec<[f32; 3]>,
+    emission: Vec<[f32; 3]>,
+    reflectance: Vec<[f32; 3]>,
+    value: Vec<[f32; 3]>,
+    direct: Vec<[f32; 3]>,
+    visible: Vec<f32>,
+}
+
+impl Pipeline<'_> {
+    /// Pictures of what patches shine with as the scene's first camera sees it, by each of some
+    /// shadings, in that order.
+    pub fn pictures(&self, light: &PatchLight, shadings: &[Shading]) -> Result<Vec<Image>, Error> {
+        let camera = self.scene.camera.as_ref().ok_or(Error::NoCamera)?;
+        let shown = self.shown(light, Quantity::Radiosity)?;
+        self.look(&self.renderer(&shown, shadings), camera)
+    }
+
+    /// A quantity on all patches. What goes back to form factors takes them from the cache where
+    /// possible.
+    pub fn shown(&self, light: &PatchLight, quantity: Quantity) -> Result<Shown, Error> {
+        let factors = || Ok::<_, Error>(self.form_factors(Sources::Cached)?.form_factors);
+        let emission = self.dimmed_emission();
+        let nothing = vec![[0.0; 3]; emission.len()];
+        let to_f32 = |rgb: &[f64; 3]| rgb.map(|channel| channel as f32);
+        let reflectance: Vec<[f32; 3]> = self.reflectance.iter().map(to_f32).collect();
+        let all = Shown {
+            sources: emission.clone(),
+            emission,
+            reflectance,
+            value: light.radiosity.clone(),
+            direct: light.direct.clone(),
+            visible: light.visible.clone(),
+        };
+        let indirect = || difference(&difference(&all.value, &all.emission), &all.direct);
+        Ok(match quantity {
+            Quantity::Radiosity => all,
+            Quantity::Direct => Shown {
+                value: difference(&all.value, &indirect()),
+                ..all
+            },
+            Quantity::Indirect => Shown {
+                value: indirect(),
+                reflectance: nothing.clone(),
+                emission: nothing.clone(),
+                direct: nothing,
+                ..all
+            },
+            Quantity::Irradiance => {
+                let factors = factors()?;
+                Shown {
+                    value: irradiance(&factors, &all.value),
+                    direct: irradiance(&factors, &all.sources),
+                    reflectance: vec![[1.0; 3]; nothing.len()],
+                    emission: nothing,
+                    ..all
+                }
+            }
+            Quantity::Error => {
+                let factors = factors()?;
+                let errors = factors.rows.iter().map(|row| row.error);
+                let errors: Option<Vec<f64>> = errors.collect();
+                table(errors.ok_or_else(no_errors)?)
+            }
+            Quantity::FactorsFrom(patch) => table(factors()?.row(patch)),
+        })
+    }
+
+    /// Makes a quantity ready to be looked at from anywhere, by each of some shadings.
+    pub fn renderer<'s>(&'s self, shown: &'s Shown, shadings: &[Shading]) -> Renderer<'s> {
+        let crease_angle = self.scene.image.crease_angle;
+        Renderer::new(&self.mesh, &shown.fields(), crease_angle, shadings)
+    }
+
+    /// What a camera sees: the quantity over pi, by each of the renderer's shadings.
+    pub fn look(&self, renderer: &Renderer<'_>, camera: &Camera) -> Result<Vec<Image>, Error> {
+        let params = settings::image_params(self.scene);
+        // Wide filters take the mean of sub-pixels, which are pixels first.
+        let parts = if params.filter.is_wide() {
+            params.subpixels
+        } else {
+            1
+        };
+        let rows = params.height * parts;
+        check_image(params.width * parts, rows)?;
+        self.observer.begin(Stage::Display, u64::from(rows));
+        let advance = |rows| self.observer.advance(rows);
+        let pictures = renderer.render(camera, &params, &advance);
+        self.observer.end();
+        Ok(pictures)
+    }
+}
+
+impl Shown {
+    fn fields(&self) -> Fields<'_> {
+        Fields {
+            sources: &self.sources,
+            emission: &self.emission,
+            reflectance: &self.reflectance,
+            radiosity: &self.value,
+            direct: &self.direct,
+            visible: &self.visible,
+        }
+    }
+}
+
+/// Numbers that are no light.
+fn table(values: Vec<f64>) -> Shown {
+    let nothing = vec![[0.0; 3]; values.len()];
+    Shown {
+        sources: nothing.clone(),
+        emission: nothing.clone(),
+        reflectance: nothing.clone(),
+        visible: vec![1.0; values.len()],
+        value: values.into_iter().map(|value| [value as f32; 3]).collect(),
+        direct: nothing,
+    }
+}
+
+fn difference(a: &[[f32; 3]], b: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    let pairs = a.iter().zip(b);
+    let minus = |(a, b): (&[f32; 3], &[f32; 3])| std::array::from_fn(|c| a[c] - b[c]);
+    pairs.map(minus).collect()
+}
+
+/// `H_i = sum_j F_ij B_j`.
+fn irradiance(factors: &FormFactors, exitance: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    let total: f64 = factors.areas.iter().sum();
+    let mut result = vec![[0.0; 3]; exitance.len()];
+    for c in 0..3 {
+        let channel: Vec<f64> = exitance.iter().map(|of| f64::from(of[c])).collect();
+        let sums = factors.exchange.product(&channel);
+        for ((result, sum), area) in result.iter_mut().zip(sums).zip(&factors.areas) {
+            result[c] = (sum * total / area) as f32;
+        }
+    }
+    result
+}
+
+fn no_errors() -> Error {
+    Error::Input(
+        "the form factors know nothing of their errors\n   = help: use --mode accurate".to_owned(),
+    )
+}

@@ -1,0 +1,63 @@
+//! What a screen shows.
+
+/// An 8-bit picture, ready for display, row by row from the top left.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Red, green and blue of each pixel.
+    pub bytes: Vec<u8>,
+}
+
+/// The same of 16 bits.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DeepPicture {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Red, green and blue of each pixel.
+    pub levels: Vec<u16>,
+}
+
+impl Picture {
+    /// A picture of one colour.
+    pub fn plain(width: u32, height: u32, color: [u8; 3]) -> Picture {
+        Picture {
+            width,
+            height,
+            bytes: color.repeat(width as usize * height as usize),
+        }
+    }
+
+    /// The same levels with 16 bits.
+    pub fn deepened(&self) -> DeepPicture {
+        let bytes = self.bytes.iter();
+        DeepPicture {
+            width: self.width,
+            height: self.height,
+            levels: bytes.map(|byte| u16::from(*byte) * 257).collect(),
+        }
+    }
+
+    /// Puts another picture onto this one; what of it lies outside is cut off.
+    pub(crate) fn paste(&mut self, other: &Picture, (left, top): (u32, u32)) {
+        let width = 3 * other.width.min(self.width.saturating_sub(left)) as usize;
+        let rows = other.height.min(self.height.saturating_sub(top));
+        for y in 0..rows {
+            let to = 3 * ((top + y) as usize * self.width as usize + left as usize);
+            let from = 3 * y as usize * other.width as usize;
+            self.bytes[to..to + width].copy_from_slice(&other.bytes[from..from + width]);
+        }
+    }
+
+    /// Mixes a colour into a pixel.
+    pub(crate) fn mix(&mut self, index: usize, color: [u8; 3], share: f32) {
+        for (byte, color) in self.bytes[3 * index..3 * index + 3].iter_mut().zip(color) {
+            let mixed = f32::from(*byte) + share * (f32::from(color) - f32::from(*byte));
+            *byte = (mixed + 0.5) as u8;
+        }
+    }
+}
