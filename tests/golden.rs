@@ -66,7 +66,7 @@ fn compare(name: &str, got: &Picture) {
 }
 
 fn save(path: &Path, picture: &Picture) {
-    std::fs::write(path, encode(picture, PictureFormat::Png(TRANSFER))).unwrap();
+    std::fs::write(path, encode(picture, PictureFormat::Png(TRANSFER), &[])).unwrap();
 }
 
 fn load(path: &Path) -> Picture {

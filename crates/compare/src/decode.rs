@@ -31,6 +31,9 @@ pub enum DecodeError {
     /// None of the known formats.
     #[error("is none of the formats that can be read: OpenEXR, PFM, PPM, PNG")]
     Unknown,
+    /// OpenEXR, which this build does not read.
+    #[error("is an OpenEXR file, which this build does not read: build with the feature `openexr`")]
+    LeftOut,
     /// A known format with something wrong in it.
     #[error("is not a good {format} file: {problem}")]
     Broken {
@@ -61,7 +64,10 @@ pub fn decode_picture(bytes: &[u8], screen: &Screen) -> Result<Decoded, DecodeEr
     if bytes.starts_with(PNG) {
         png_levels(bytes, screen)
     } else if bytes.starts_with(EXR) {
-        exr_radiance(bytes).map(linear)
+        #[cfg(feature = "openexr")]
+        return exr_radiance(bytes).map(linear);
+        #[cfg(not(feature = "openexr"))]
+        Err(DecodeError::LeftOut)
     } else if bytes.starts_with(b"PF") || bytes.starts_with(b"Pf") {
         portable::float_map(bytes).map(linear)
     } else if bytes.starts_with(b"P3") || bytes.starts_with(b"P6") {
@@ -135,6 +141,7 @@ fn png_levels(bytes: &[u8], screen: &Screen) -> Result<Decoded, DecodeError> {
     Ok(levels.map(|level| screen.radiance(level, own)))
 }
 
+#[cfg(feature = "openexr")]
 fn exr_radiance(bytes: &[u8]) -> Result<Image, DecodeError> {
     use exr::prelude::{ReadChannels, ReadLayers, read};
     let broken = |error: exr::error::Error| DecodeError::Broken {

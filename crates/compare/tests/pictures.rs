@@ -127,7 +127,7 @@ fn levels_become_radiance() {
             PictureFormat::PlainPpm,
             PictureFormat::Png(transfer),
         ] {
-            decoded.push(decode_picture(&encode(&picture, format), &screen).unwrap());
+            decoded.push(decode_picture(&encode(&picture, format, &[]), &screen).unwrap());
         }
         assert!(
             decoded
@@ -153,7 +153,7 @@ fn levels_become_radiance() {
 fn pictures_may_know_their_gamma() {
     for own in [Transfer::Gamma(1.0), Transfer::Srgb] {
         let picture = ToneMap::clamped(4.0, own).apply(&ramp());
-        let png = encode(&picture, PictureFormat::Png(own));
+        let png = encode(&picture, PictureFormat::Png(own), &[]);
         let radiance = |transfer| {
             // What is usual elsewhere does not matter.
             let screen = Screen {
@@ -225,7 +225,7 @@ proptest! {
     #[test]
     fn damage_is_survived(damage in prop::collection::vec((any::<u16>(), any::<u8>()), 1..4)) {
         let picture = ToneMap::clamped(1.0, Transfer::Gamma(2.0)).apply(&ramp());
-        let mut png = encode(&picture, PictureFormat::Png(Transfer::Gamma(2.0)));
+        let mut png = encode(&picture, PictureFormat::Png(Transfer::Gamma(2.0)), &[]);
         for (at, byte) in damage {
             let length = png.len();
             png[usize::from(at) % length] = byte;

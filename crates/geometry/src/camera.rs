@@ -1,5 +1,7 @@
 //! The pinhole camera.
 
+mod moves;
+
 use crate::ray::Ray;
 use glam::DVec3;
 
@@ -10,6 +12,8 @@ pub struct Camera {
     forward: DVec3,
     right: DVec3,
     up: DVec3,
+    /// What was said to be up.
+    upright: DVec3,
     film_height: f64,
     near: f64,
 }
@@ -47,7 +51,8 @@ impl Camera {
         near: f64,
     ) -> Result<Camera, CameraError> {
         let forward = direction.try_normalize().ok_or(CameraError::NoDirection)?;
-        let right = forward.cross(up.normalize_or_zero());
+        let upright = up.normalize_or_zero();
+        let right = forward.cross(upright);
         if right.length() < PARALLEL {
             return Err(CameraError::UpParallel);
         }
@@ -63,6 +68,7 @@ impl Camera {
             forward,
             right,
             up: right.cross(forward),
+            upright,
             film_height: 2.0 * (0.5 * vertical_fov.to_radians()).tan(),
             near,
         })

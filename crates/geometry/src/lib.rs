@@ -49,7 +49,7 @@ pub use occluders::{Hit, Occluders};
 pub use polygon::Polygon;
 pub use polygon_mesh::PolygonMesh;
 pub use ray::Ray;
-pub use screen::{Linear, Offsets, Screen, Seen, SeenFace};
+pub use screen::{Backs, Linear, Offsets, Screen, Seen, SeenFace};
 pub use shape::Shape;
 pub use subdivide::{Divisions, MAX_PATCHES, MeshError, Surface, count_patches, subdivide};
 pub use walls::Walls;

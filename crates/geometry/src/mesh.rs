@@ -1,5 +1,6 @@
 //! The mesh of patches: what every later stage indexes.
 
+use crate::bounds::Aabb;
 use crate::polygon::Polygon;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -118,6 +119,12 @@ impl Mesh {
     /// The face that a patch is a cell of.
     pub fn face_of(&self, patch: usize) -> &Face {
         &self.faces[self.patches[patch].face.index()]
+    }
+
+    /// The smallest box around all faces.
+    pub fn bounds(&self) -> Aabb {
+        let corners = self.faces.iter().flat_map(|face| face.polygon.corners());
+        Aabb::around(corners.copied())
     }
 
     /// The sum of all patch areas.

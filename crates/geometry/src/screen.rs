@@ -13,6 +13,7 @@ use crate::mesh::{FaceId, Mesh};
 pub use face::{Linear, SeenFace};
 use glam::DVec2;
 use radiosity_simd::{Float, LANES, Simd};
+use serde::{Deserialize, Serialize};
 
 /// Places of samples relative to a pixel's corner, eight by eight.
 pub type Offsets = [[f32; LANES]; 2];
@@ -28,10 +29,21 @@ pub struct Seen {
     pub face: u32,
 }
 
+/// What a camera sees of the backs of faces.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Backs {
+    /// They are black.
+    #[default]
+    Black,
+    /// What lies behind them: rooms can be looked into from outside. For light they are as they are.
+    Transparent,
+}
+
 /// All faces that a camera may see.
 #[derive(Clone, Debug)]
 pub struct Screen {
-    /// The faces in the order of the mesh, without those that are seen edge-on.
+    /// The faces in the order of the mesh, without those that are seen edge-on, or seen through.
     pub faces: Vec<SeenFace>,
     /// For each tile of pixels, the faces that it may show.
     tiles: Vec<Vec<u32>>,
@@ -49,11 +61,17 @@ const TILE: u32 = 16;
 impl Screen {
     /// Looks at the faces of a mesh through a camera, for a picture of so many pixels whose samples
     /// lie up to `reach` pixels from their pixel's centre, along either axis.
-    pub fn new(mesh: &Mesh, camera: &Camera, (width, height): (u32, u32), reach: f64) -> Screen {
+    pub fn new(
+        mesh: &Mesh,
+        (camera, backs): (&Camera, Backs),
+        (width, height): (u32, u32),
+        reach: f64,
+    ) -> Screen {
         let film = camera.film(width, height);
         let ids = (0..mesh.faces.len() as u32).map(FaceId);
         let faces = ids.filter_map(|id| SeenFace::new(id, &mesh.faces[id.index()], camera, &film));
-        let faces: Vec<SeenFace> = faces.collect();
+        let is_seen = |face: &SeenFace| face.front || backs == Backs::Black;
+        let faces: Vec<SeenFace> = faces.filter(is_seen).collect();
         let (across, down) = (width.div_ceil(TILE), height.div_ceil(TILE));
         let mut screen = Screen {
             tiles: vec![Vec::new(); (across * down) as usize],

@@ -4,7 +4,7 @@ mod shapes;
 
 use proptest::prelude::*;
 use radiosity_geometry::{
-    Camera, DVec2, DVec3, Film, Mesh, Occluders, PixelFilter, Screen, Seen, Shape,
+    Backs, Camera, DVec2, DVec3, Film, Mesh, Occluders, PixelFilter, Screen, Seen, Shape,
 };
 use radiosity_simd::{InstructionSet, Kernel, LANES, Simd};
 use shapes::{icosphere, mesh_of, surfaces_of};
@@ -42,7 +42,12 @@ fn offsets() -> [[f32; LANES]; 2] {
 }
 
 fn screen_of(mesh: &Mesh, camera: &Camera) -> Screen {
-    Screen::new(mesh, camera, (FILM.width, FILM.height), FILM.reach())
+    Screen::new(
+        mesh,
+        (camera, Backs::Black),
+        (FILM.width, FILM.height),
+        FILM.reach(),
+    )
 }
 
 /// The face and its side that each sample of a picture shows; the same on all instruction sets.

@@ -77,6 +77,16 @@ pub(crate) fn faces_in_input_order(mesh: &Mesh) -> Vec<&Face> {
     faces
 }
 
+/// The patch of this place on the surface of this name.
+pub(crate) fn patch_at(scene: &Scene, mesh: &Mesh, surface: &str, cell: [u32; 2]) -> Option<usize> {
+    let is_it = |(patch, place): &(usize, [u32; 2])| {
+        let index = mesh.patches[*patch].surface.index();
+        *place == cell && scene.surfaces[index].name == surface
+    };
+    let found = input_order(scene, mesh).into_iter().find(is_it);
+    found.map(|(patch, _)| patch)
+}
+
 /// All patches with their two coordinates on the surface, in the order of the input.
 pub(crate) fn input_order(scene: &Scene, mesh: &Mesh) -> Vec<(usize, [u32; 2])> {
     let mut rows: Vec<(usize, [u32; 2])> = Vec::with_capacity(mesh.patches.len());

@@ -71,7 +71,22 @@ pub(crate) struct EstimatorReport {
 }
 
 impl EstimatorReport {
-    fn of(estimator: Estimator) -> EstimatorReport {
+    /// In words.
+    pub(crate) fn text(&self) -> String {
+        let setting = |name: &str, value: Option<String>| {
+            value.map_or(String::new(), |value| format!(", {name} {value}"))
+        };
+        [
+            self.mode.to_owned(),
+            setting("points", self.points.map(|n| n.to_string())),
+            setting("pairs", self.pairs.map(|n| n.to_string())),
+            setting("seed", self.seed.map(|n| n.to_string())),
+            setting("tolerance", self.tolerance.map(|x| format!("{x:e}"))),
+        ]
+        .concat()
+    }
+
+    pub(crate) fn of(estimator: Estimator) -> EstimatorReport {
         match estimator {
             Estimator::Regular { points } => EstimatorReport {
                 mode: "regular",

@@ -15,7 +15,7 @@ use radiosity_geometry::Mesh;
 use radiosity_scene::Scene;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Collects what happened; prints each line as soon as it is known.
@@ -85,6 +85,9 @@ pub(crate) struct RowReport {
     #[serde(skip_serializing_if = "Option::is_none")]
     closure: Option<ClosureFacts>,
 }
+
+/// So many files are told one by one.
+const MOST_TOLD: usize = 12;
 
 impl RowReport {
     pub(crate) fn of(rows: &RowSummary) -> RowReport {
@@ -199,6 +202,22 @@ impl<'a> Report<'a> {
         self.terminal
             .line(&format!("{:<14}{:<36}{seconds:>9}", "pictures", "rendered"));
         self.json.stages.display = Some(display);
+    }
+
+    /// Many files, of which not all are told to people.
+    pub(crate) fn outputs(&mut self, files: BTreeMap<String, PathBuf>) {
+        let more = files.len().saturating_sub(MOST_TOLD);
+        for (index, (name, path)) in files.into_iter().enumerate() {
+            if more <= 1 || index < MOST_TOLD {
+                self.output(&name, &path);
+            } else {
+                self.json.outputs.insert(name, path.display().to_string());
+            }
+        }
+        if more > 1 {
+            self.terminal
+                .line(&indented(&format!("and {more} more files beside them")));
+        }
     }
 
     pub(crate) fn output(&mut self, name: &str, path: &Path) {

@@ -53,6 +53,7 @@ pub(crate) fn image_params(scene: &Scene) -> ImageParams {
         filter: image.filter,
         samples: image.samples,
         adaptive: image.adaptive,
+        backs: image.backs,
         seed: image.seed,
     }
 }

@@ -1,8 +1,23 @@
 //! Pictures as files' bytes.
+//!
+//! What a file should say of itself is a list of keys and values; formats that have no room for it
+//! (PPM, PFM) leave it out.
 
-use crate::image::Image;
+mod hdr;
+#[cfg(feature = "openexr")]
+mod openexr;
+mod portable;
+
 use crate::picture::{DeepPicture, Picture};
 use crate::tone::Transfer;
+pub use hdr::encode_hdr;
+#[cfg(feature = "openexr")]
+pub use openexr::encode_exr;
+pub use portable::encode_pfm;
+use portable::{plain_ppm, ppm};
+
+/// What a file says of itself: keys, and their values.
+pub type Metadata<'a> = [(&'a str, String)];
 
 /// File formats for 8-bit pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,64 +31,35 @@ pub enum PictureFormat {
 }
 
 /// The bytes of a file that holds the picture.
-pub fn encode(picture: &Picture, format: PictureFormat) -> Vec<u8> {
+pub fn encode(picture: &Picture, format: PictureFormat, metadata: &Metadata<'_>) -> Vec<u8> {
     match format {
         PictureFormat::PlainPpm => plain_ppm(picture),
         PictureFormat::Ppm => ppm(picture),
         PictureFormat::Png(transfer) => {
             let size = (picture.width, picture.height);
-            png(size, &picture.bytes, png::BitDepth::Eight, transfer)
+            let data = (&picture.bytes[..], png::BitDepth::Eight);
+            png(size, data, transfer, metadata)
         }
     }
 }
 
 /// The bytes of a PNG of 16 bits, which records the curve that the picture was made for.
-pub fn encode_deep_png(picture: &DeepPicture, transfer: Transfer) -> Vec<u8> {
-    let data: Vec<u8> = picture
-        .levels
-        .iter()
-        .flat_map(|level| level.to_be_bytes())
-        .collect();
+pub fn encode_deep_png(
+    picture: &DeepPicture,
+    transfer: Transfer,
+    metadata: &Metadata<'_>,
+) -> Vec<u8> {
+    let levels = picture.levels.iter();
+    let data: Vec<u8> = levels.flat_map(|level| level.to_be_bytes()).collect();
     let size = (picture.width, picture.height);
-    png(size, &data, png::BitDepth::Sixteen, transfer)
-}
-
-/// The bytes of a portable float map (PF): linear radiance, 32-bit, little endian, rows from the
-/// bottom up as the format wants them.
-pub fn encode_pfm(image: &Image) -> Vec<u8> {
-    let mut bytes = format!("PF\n{} {}\n-1.0\n", image.width, image.height).into_bytes();
-    for row in image.pixels.chunks_exact(image.width as usize).rev() {
-        for channel in row.iter().flatten() {
-            bytes.extend(channel.to_le_bytes());
-        }
-    }
-    bytes
-}
-
-fn header(magic: &str, picture: &Picture) -> String {
-    format!("{magic}\n{} {}\n255\n", picture.width, picture.height)
-}
-
-/// One pixel a line: the format allows no line over 70 characters.
-fn plain_ppm(picture: &Picture) -> Vec<u8> {
-    use std::fmt::Write;
-    let mut text = header("P3", picture);
-    text.reserve(12 * picture.bytes.len() / 3);
-    for pixel in picture.bytes.chunks_exact(3) {
-        writeln!(text, "{} {} {}", pixel[0], pixel[1], pixel[2]).expect("strings take all text");
-    }
-    text.into_bytes()
-}
-
-fn ppm(picture: &Picture) -> Vec<u8> {
-    [header("P6", picture).as_bytes(), &picture.bytes].concat()
+    png(size, (&data, png::BitDepth::Sixteen), transfer, metadata)
 }
 
 fn png(
     (width, height): (u32, u32),
-    data: &[u8],
-    depth: png::BitDepth,
+    (data, depth): (&[u8], png::BitDepth),
     transfer: Transfer,
+    metadata: &Metadata<'_>,
 ) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
@@ -86,6 +72,10 @@ fn png(
         }
         Transfer::Srgb => encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual),
     }
+    for (key, value) in metadata {
+        let text = encoder.add_itxt_chunk((*key).to_owned(), value.clone());
+        text.expect("keys are plain and short");
+    }
     let mut writer = encoder.write_header().expect("memory takes all bytes");
     writer
         .write_image_data(data)
@@ -97,6 +87,7 @@ fn png(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::image::Image;
 
     fn sample() -> Picture {
         Picture {
@@ -108,9 +99,9 @@ mod tests {
 
     #[test]
     fn portable_pixmaps_are_as_specified() {
-        let plain = encode(&sample(), PictureFormat::PlainPpm);
+        let plain = encode(&sample(), PictureFormat::PlainPpm, &[]);
         assert_eq!(plain, b"P3\n2 1\n255\n0 1 2\n253 254 255\n");
-        let binary = encode(&sample(), PictureFormat::Ppm);
+        let binary = encode(&sample(), PictureFormat::Ppm, &[]);
         assert_eq!(binary, b"P6\n2 1\n255\n\x00\x01\x02\xfd\xfe\xff");
     }
 
@@ -130,10 +121,20 @@ mod tests {
 
     #[test]
     fn png_holds_the_picture_and_its_gamma() {
-        let bytes = encode(&sample(), PictureFormat::Png(Transfer::Gamma(2.0)));
+        let metadata = [("Unit", "W/m²".to_owned())];
+        let bytes = encode(
+            &sample(),
+            PictureFormat::Png(Transfer::Gamma(2.0)),
+            &metadata,
+        );
         let decoder = png::Decoder::new(std::io::Cursor::new(bytes));
         let mut reader = decoder.read_info().unwrap();
         assert_eq!(reader.info().gamma().unwrap().into_value(), 0.5);
+        let text = &reader.info().utf8_text[0];
+        assert_eq!(
+            (text.keyword.as_str(), text.get_text().unwrap()),
+            ("Unit", "W/m²".to_owned())
+        );
         let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
         reader.next_frame(&mut pixels).unwrap();
         assert_eq!(pixels, sample().bytes);
@@ -146,7 +147,7 @@ mod tests {
             height: 1,
             levels: vec![0, 258, 65535],
         };
-        let bytes = encode_deep_png(&picture, Transfer::Srgb);
+        let bytes = encode_deep_png(&picture, Transfer::Srgb, &[]);
         let decoder = png::Decoder::new(std::io::Cursor::new(bytes));
         let mut reader = decoder.read_info().unwrap();
         assert!(reader.info().srgb.is_some());

@@ -57,6 +57,15 @@ impl Image {
 }
 
 impl Values {
+    /// A grey image of the same numbers.
+    pub fn into_image(self) -> Image {
+        Image {
+            width: self.width,
+            height: self.height,
+            pixels: self.values.into_iter().map(|value| [value; 3]).collect(),
+        }
+    }
+
     /// The number at a pixel.
     pub(crate) fn at(&self, x: u32, y: u32) -> f32 {
         self.values[y as usize * self.width as usize + x as usize]

@@ -28,7 +28,9 @@ mod sheet;
 mod tone;
 mod vertex;
 
-pub use encode::{PictureFormat, encode, encode_deep_png, encode_pfm};
+#[cfg(feature = "openexr")]
+pub use encode::encode_exr;
+pub use encode::{Metadata, PictureFormat, encode, encode_deep_png, encode_hdr, encode_pfm};
 pub use false_color::{ColorScale, with_legend};
 pub use fields::Fields;
 pub use image::{Image, Values};
@@ -37,7 +39,7 @@ pub use params::ImageParams;
 pub use picture::{DeepPicture, Picture};
 pub use render::{Renderer, Shading};
 pub use sheet::contact_sheet;
-pub use tone::{Curve, Exposure, ToneMap, Transfer};
+pub use tone::{Curve, Exposure, LUMINANCE, ToneMap, Transfer};
 
 /// Red, green, blue.
 pub type Rgb = [f32; 3];

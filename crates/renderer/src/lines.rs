@@ -5,7 +5,7 @@
 
 use crate::image::Values;
 use crate::picture::Picture;
-use radiosity_geometry::{Camera, DVec2, DVec3, Mesh, Offsets, Screen, Seen};
+use radiosity_geometry::{Backs, Camera, DVec2, DVec3, Mesh, Offsets, Screen, Seen};
 use radiosity_simd::{Kernel, LANES, Simd, dispatch};
 use rayon::prelude::*;
 
@@ -25,12 +25,16 @@ const GROUPS: usize = PLACES * PLACES / LANES;
 
 impl Outlines {
     /// For a picture of so many pixels.
-    pub fn new(mesh: &Mesh, camera: &Camera, (width, height): (u32, u32)) -> Outlines {
+    pub fn new(
+        mesh: &Mesh,
+        (camera, backs): (&Camera, Backs),
+        (width, height): (u32, u32),
+    ) -> Outlines {
         let view = View {
             mesh,
             camera,
             film: camera.film(width, height),
-            screen: Screen::new(mesh, camera, (width, height), 1.0),
+            screen: Screen::new(mesh, (camera, backs), (width, height), 1.0),
             places: places(),
         };
         let rows: Vec<Vec<(f32, bool)>> = (0..height)

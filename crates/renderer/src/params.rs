@@ -1,6 +1,6 @@
 //! How pictures are sampled.
 
-use radiosity_geometry::{Film, PixelFilter};
+use radiosity_geometry::{Backs, Film, PixelFilter};
 
 /// How pictures are sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,6 +18,8 @@ pub struct ImageParams {
     /// How many times as many samples a pixel may take that shows several faces of different
     /// brightness; 1 for all as many.
     pub adaptive: u32,
+    /// What is seen of the backs of faces.
+    pub backs: Backs,
     /// Seed of the sample positions.
     pub seed: u64,
 }
@@ -32,6 +34,7 @@ impl Default for ImageParams {
             filter: PixelFilter::default(),
             samples: 4,
             adaptive: 1,
+            backs: Backs::Black,
             seed: 0,
         }
     }

@@ -74,7 +74,12 @@ impl<'a> Renderer<'a> {
         let film = params.film();
         let view = View {
             film: camera.film(film.width, film.height),
-            screen: Screen::new(self.mesh, camera, (film.width, film.height), film.reach()),
+            screen: Screen::new(
+                self.mesh,
+                (camera, params.backs),
+                (film.width, film.height),
+                film.reach(),
+            ),
             shader: &self.shader,
             samples: SampleSets::new(&film, params.samples, params.seed),
             most_rounds: params.adaptive,

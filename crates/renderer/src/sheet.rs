@@ -2,10 +2,33 @@
 
 use crate::lettering::{Align, LINE, letter};
 use crate::picture::Picture;
+use image::RgbImage;
+use image::imageops::thumbnail;
 
 const MARGIN: u32 = 12;
 const PAPER: [u8; 3] = [24, 24, 24];
 const INK: [u8; 3] = [225, 225, 225];
+
+/// The widest thumbnail.
+const THUMBNAIL: u32 = 320;
+
+impl Picture {
+    /// The same not wider than fits on a sheet.
+    pub fn thumbnail(&self) -> Picture {
+        if self.width <= THUMBNAIL {
+            return self.clone();
+        }
+        let height = (u64::from(self.height) * u64::from(THUMBNAIL) / u64::from(self.width)) as u32;
+        let image = RgbImage::from_raw(self.width, self.height, self.bytes.clone());
+        let image = image.expect("the size is that of the picture");
+        let small = thumbnail(&image, THUMBNAIL, height.max(1));
+        Picture {
+            width: small.width(),
+            height: small.height(),
+            bytes: small.into_raw(),
+        }
+    }
+}
 
 /// Pictures side by side, in rows about as many as there are columns, each above its name.
 pub fn contact_sheet(pictures: &[(String, Picture)]) -> Picture {
@@ -45,5 +68,8 @@ mod tests {
         assert_eq!(at(12 + 52 + 20, 12 + 57 + 15), 200);
         assert_eq!(at(12 + 104 + 20, 12 + 57 + 15), PAPER[0]);
         assert_eq!(contact_sheet(&[]).bytes.len(), 12 * 12 * 3);
+        let small = Picture::plain(1280, 720, [7, 8, 9]).thumbnail();
+        assert_eq!((small.width, small.height), (320, 180));
+        assert_eq!(small.bytes[..3], [7, 8, 9]);
     }
 }

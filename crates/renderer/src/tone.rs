@@ -37,9 +37,12 @@ pub enum Exposure {
     },
 }
 
-/// The luminance of linear sRGB (ITU-R BT.709, item 3.2).
-pub(crate) fn luminance([r, g, b]: Rgb) -> f32 {
-    0.2126 * r + 0.7152 * g + 0.0722 * b
+/// What the channels of linear sRGB add to luminance (ITU-R BT.709, item 3.2).
+pub const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+
+pub(crate) fn luminance(rgb: Rgb) -> f32 {
+    let [r, g, b] = LUMINANCE.map(|weight| weight as f32);
+    r * rgb[0] + g * rgb[1] + b * rgb[2]
 }
 
 impl Exposure {
@@ -69,6 +72,14 @@ impl ToneMap {
             curve: Curve::Clamp,
             transfer,
             dither: false,
+        }
+    }
+
+    /// The same with the exposure that it has for one image, for others.
+    pub fn fixed_for(&self, image: &Image) -> ToneMap {
+        ToneMap {
+            exposure: Exposure::Fixed(self.exposure.factor(image).into()),
+            ..*self
         }
     }
 

@@ -17,7 +17,7 @@ use crate::exposed::is_exposed;
 use crate::fields::Fields;
 use crate::hanging::{Hanging, hanging_vertices};
 use crate::{Rgb, add_scaled};
-use radiosity_geometry::{Aabb, DVec2, DVec3, Face, FaceId, Mesh, Polygon};
+use radiosity_geometry::{DVec2, DVec3, Face, FaceId, Mesh, Polygon};
 use radiosity_simd::Simd;
 use std::collections::HashMap;
 use std::ops::{Mul, Sub};
@@ -173,8 +173,7 @@ where
 
 /// The corners of patches, by the vertex they share.
 fn weld(mesh: &Mesh, patches: &[usize]) -> Vec<Vec<Corner>> {
-    let corners = mesh.faces.iter().flat_map(|f| f.polygon.corners());
-    let bounds = Aabb::around(corners.copied());
+    let bounds = mesh.bounds();
     let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
     let mut vertices = Vertices {
         distance: (RELATIVE_WELD_DISTANCE * bounds.extent().max_element())

@@ -1,4 +1,4 @@
-//! `[camera]`.
+//! `[camera]` and `[[views]]`.
 
 use crate::source::{Complaint, SceneError, Source};
 use crate::values::{Vector, vector};
@@ -17,6 +17,52 @@ pub(crate) struct CameraTable {
     vertical_fov: Spanned<f64>,
     near: Option<Spanned<f64>>,
 }
+
+/// A camera beside the first one, by its name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct View {
+    /// What its pictures are named after.
+    pub name: String,
+    /// The camera.
+    pub camera: Camera,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ViewTable {
+    name: Spanned<String>,
+    camera: Spanned<CameraTable>,
+}
+
+/// All views; their names are parts of files' names.
+pub(crate) fn views(source: &Source<'_>, tables: &[ViewTable]) -> Result<Vec<View>, SceneError> {
+    let mut views: Vec<View> = Vec::new();
+    for table in tables {
+        let name = table.name.get_ref();
+        let is_plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
+        let label = if name.is_empty() || !name.chars().all(is_plain) {
+            "use letters, digits, `-` and `_`: files are named after it"
+        } else if name == ALL_VIEWS || name == FIRST_VIEW {
+            "this stands for all views, or for [camera]: give it another name"
+        } else if views.iter().any(|view| view.name == *name) {
+            "another view has this name already"
+        } else {
+            views.push(View {
+                name: name.clone(),
+                camera: camera(source, &table.camera)?,
+            });
+            continue;
+        };
+        let complaint = Complaint::new(format!("a view cannot be called `{name}`"), label);
+        return Err(source.error(table.name.span(), &complaint));
+    }
+    Ok(views)
+}
+
+/// What stands for all views on the command line.
+pub const ALL_VIEWS: &str = "all";
+/// What stands for the first one.
+pub const FIRST_VIEW: &str = "camera";
 
 pub(crate) fn camera(
     source: &Source<'_>,

@@ -1,6 +1,6 @@
 //! The tables of a scene file, as they are written.
 
-use crate::camera::CameraTable;
+use crate::camera::{CameraTable, ViewTable};
 use crate::image::ImageTable;
 use crate::light::LightTable;
 use crate::material::MaterialTable;
@@ -15,6 +15,8 @@ use toml::Spanned;
 #[serde(deny_unknown_fields)]
 pub(crate) struct SceneFile {
     pub(crate) camera: Option<Spanned<CameraTable>>,
+    #[serde(default)]
+    pub(crate) views: Vec<ViewTable>,
     #[serde(default)]
     pub(crate) image: ImageTable,
     #[serde(default)]

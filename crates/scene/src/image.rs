@@ -2,7 +2,7 @@
 
 use crate::settings::{Automatic, value_or};
 use crate::source::{SceneError, Source};
-use radiosity_geometry::PixelFilter;
+use radiosity_geometry::{Backs, PixelFilter};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -22,6 +22,8 @@ pub struct ImageSettings {
     /// How many times as many samples a pixel may take that shows several faces of different
     /// brightness.
     pub adaptive: u32,
+    /// What is seen of the backs of faces.
+    pub backs: Backs,
     /// Degrees between normals below which neighbouring faces are shaded as one smooth surface.
     pub crease_angle: f64,
     /// What radiance is multiplied by.
@@ -32,6 +34,8 @@ pub struct ImageSettings {
     pub gamma: Gamma,
     /// Whether levels are dithered.
     pub dither: bool,
+    /// The luminous flux of a watt of light, for illuminance: lm/W.
+    pub lumens_per_watt: f64,
     /// Seed of the positions of samples.
     pub seed: u64,
 }
@@ -90,6 +94,8 @@ impl Exposure {
 /// The course's.
 const DEFAULT_GAMMA: f64 = 2.2;
 const DEFAULT_CREASE_ANGLE: f64 = 30.0;
+/// Of green light of 540 THz (BIPM, "The International System of Units", 9th edition, 2019).
+const DEFAULT_LUMENS_PER_WATT: f64 = 683.0;
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -100,6 +106,8 @@ pub(crate) struct ImageTable {
     filter: Option<PixelFilter>,
     samples: Option<Spanned<u32>>,
     adaptive: Option<Spanned<u32>>,
+    #[serde(default)]
+    backs: Backs,
     crease_angle: Option<Spanned<f64>>,
     exposure: Option<Spanned<Exposure>>,
     #[serde(default)]
@@ -107,6 +115,7 @@ pub(crate) struct ImageTable {
     gamma: Option<Spanned<Gamma>>,
     #[serde(default)]
     dither: bool,
+    lumens_per_watt: Option<Spanned<f64>>,
     seed: Option<u64>,
 }
 
@@ -127,6 +136,7 @@ impl ImageTable {
             filter: self.filter.unwrap_or_default(),
             samples: count(&self.samples, 4, "`samples`")?,
             adaptive: count(&self.adaptive, 1, "`adaptive`")?,
+            backs: self.backs,
             crease_angle: value_or(
                 source,
                 self.crease_angle.as_ref(),
@@ -153,6 +163,13 @@ impl ImageTable {
                 ("`gamma`", "a positive number, or \"srgb\""),
             )?,
             dither: self.dither,
+            lumens_per_watt: value_or(
+                source,
+                self.lumens_per_watt.as_ref(),
+                DEFAULT_LUMENS_PER_WATT,
+                is_positive,
+                ("`lumens_per_watt`", "a positive number"),
+            )?,
             seed: self.seed.unwrap_or(0),
         })
     }

@@ -23,6 +23,7 @@ mod vs3;
 #[cfg(test)]
 mod tests;
 
+pub use camera::{ALL_VIEWS, FIRST_VIEW, View};
 pub use image::{Exposure, Gamma, ImageSettings, Standard, Tone};
 pub use light::{Light, MOST_DIMMING};
 pub use material::Material;

@@ -1,6 +1,6 @@
 //! A checked scene, and how it is loaded.
 
-use crate::camera::camera;
+use crate::camera::{View, camera, views};
 use crate::file::SceneFile;
 use crate::image::ImageSettings;
 use crate::light::{Light, keep_used, lights};
@@ -27,6 +27,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// The camera, if the scene has one.
     pub camera: Option<Camera>,
+    /// Further cameras, in the order of the file.
+    pub views: Vec<View>,
     /// The picture.
     pub image: ImageSettings,
     /// How finely surfaces are cut that do not say otherwise.
@@ -118,6 +120,7 @@ pub fn parse(path: &Path, text: &str) -> Result<Scene, SceneError> {
         geometry,
         surfaces,
         camera: camera.transpose()?,
+        views: views(&source, &file.views)?,
         image: file.image.check(&source)?,
         divisions: file.discretization.check(&source)?,
         form_factors: file.form_factors.check(&source)?,

@@ -72,6 +72,7 @@ pub(crate) fn parse(source: &Source<'_>) -> Result<Scene, SceneError> {
         materials,
         lights: Vec::new(),
         camera: None,
+        views: Vec::new(),
         image: ImageTable::default().check(source)?,
         divisions: Divisions::uniform(1),
         form_factors: FormFactorTable::default().check(source)?,

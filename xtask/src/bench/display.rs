@@ -134,7 +134,7 @@ fn cold_run(scene: &Scene, folder: &Path) -> Result<(), Error> {
             ("png", PictureFormat::Png(transfer)),
         ] {
             let path = folder.join(format!("{name}.{ending}"));
-            let written = std::fs::write(&path, encode(&shown, format));
+            let written = std::fs::write(&path, encode(&shown, format, &[]));
             written.map_err(|error| Error::Output { path, error })?;
         }
     }

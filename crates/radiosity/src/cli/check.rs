@@ -22,7 +22,7 @@ pub(super) fn run(args: &CheckArgs, site: &Site) -> Result<(), Error> {
 
 /// What `check` says.
 fn check_lines(scene: &Scene, needs: &Needs) -> Vec<String> {
-    let camera = if scene.camera.is_some() {
+    let camera = if scene.camera.is_some() || !scene.views.is_empty() {
         ""
     } else {
         " (no camera: it cannot be rendered)"
@@ -37,6 +37,7 @@ fn check_lines(scene: &Scene, needs: &Needs) -> Vec<String> {
             bytes(needs.disk),
         ),
     ];
+    lines.extend(views_line(scene));
     lines.extend(lights_line(scene));
     if scene.camera.is_some() && scene.lights.is_empty() {
         lines.push(indented(
@@ -44,6 +45,12 @@ fn check_lines(scene: &Scene, needs: &Needs) -> Vec<String> {
         ));
     }
     lines
+}
+
+/// The cameras beside the first one.
+fn views_line(scene: &Scene) -> Option<String> {
+    let names: Vec<&str> = scene.views.iter().map(|view| view.name.as_str()).collect();
+    (!names.is_empty()).then(|| labelled("views", &names.join(", ")))
 }
 
 /// The lights that can be dimmed, each with its factors if they are not 1.

@@ -50,6 +50,15 @@ pub enum ToneArg {
     Filmic,
 }
 
+/// [`Backs`](radiosity_geometry::Backs) on the command line.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum BacksArg {
+    /// They are black
+    Black,
+    /// The camera looks through them: into a room from outside
+    Transparent,
+}
+
 /// How direct light is shown, on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum DirectArg {
@@ -70,8 +79,32 @@ pub enum FormatArg {
     Png,
     /// Portable network graphics, 16 bit
     Png16,
-    /// Portable float map: linear radiance
+    /// Portable float map: linear numbers
     Pfm,
+    /// Radiance's pictures: linear numbers, to 1 %, with what they are
+    Hdr,
+    /// OpenEXR: linear numbers, 32 bit, with what they are
+    #[cfg(feature = "openexr")]
+    Exr,
+}
+
+/// [`Quantity`](crate::Quantity) on the command line, and how it is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ShowArg {
+    /// All light
+    Light,
+    /// Light that is emitted, or reflected once
+    Direct,
+    /// Light that is reflected more often
+    Indirect,
+    /// Radiosity in false colours, W/m^2: what leaves surfaces
+    Radiosity,
+    /// Irradiance in false colours, W/m^2: what arrives at them
+    Irradiance,
+    /// Illuminance in false colours, lx
+    Illuminance,
+    /// The estimated errors of the form factors of each patch, in false colours
+    Error,
 }
 
 /// [`SolverMethod`](radiosity_scene::SolverMethod) on the command line.

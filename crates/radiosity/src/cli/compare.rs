@@ -141,7 +141,11 @@ fn difference(path: &Path, found: &Decoded, reference: &Decoded) -> Vec<u8> {
             shown.full_scale
         ));
     }
-    encode(&shown.picture, PictureFormat::Png(Transfer::Gamma(2.2)))
+    encode(
+        &shown.picture,
+        PictureFormat::Png(Transfer::Gamma(2.2)),
+        &[],
+    )
 }
 
 fn tables(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Error> {

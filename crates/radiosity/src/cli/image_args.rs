@@ -3,6 +3,8 @@
 use super::apply::set;
 use super::choices::{DirectArg, FilterArg, FormatArg, ToneArg};
 use super::parse::{parse_angle, parse_exposure, parse_gamma, parse_size};
+use super::show_args::ShowArgs;
+use super::view_args::ViewArgs;
 use clap::Args;
 use radiosity_geometry::PixelFilter;
 use radiosity_renderer::Shading;
@@ -55,6 +57,10 @@ pub struct ImageArgs {
 )]
 pub struct DisplayArgs {
     #[command(flatten)]
+    pub show: ShowArgs,
+    #[command(flatten)]
+    pub views: ViewArgs,
+    #[command(flatten)]
     pub image: ImageArgs,
     /// Degrees between normals below which neighbouring faces of a mesh are shaded as one smooth
     /// surface [default: 30]
@@ -77,6 +83,9 @@ pub struct DisplayArgs {
     /// File formats of the pictures
     #[arg(long, value_enum, value_delimiter = ',', default_values = ["ppm", "png"])]
     pub format: Vec<FormatArg>,
+    /// Show no small picture in the terminal
+    #[arg(long)]
+    pub no_live: bool,
 }
 
 impl ImageArgs {
@@ -107,9 +116,11 @@ impl ImageArgs {
 impl DisplayArgs {
     pub(crate) fn apply(&self, scene: &mut Scene) {
         self.image.apply(scene);
+        self.views.apply(scene);
         set(&mut scene.image.samples, self.samples);
         set(&mut scene.image.adaptive, self.adaptive);
         set(&mut scene.image.crease_angle, self.crease_angle);
+        set(&mut scene.image.lumens_per_watt, self.show.lumens_per_watt);
     }
 
     /// The pictures that are asked for.

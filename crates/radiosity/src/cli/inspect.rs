@@ -4,9 +4,7 @@ use super::args::InspectCommand;
 use super::site::Site;
 use super::terminal::say;
 use crate::error::Error;
-use crate::inspect::{
-    CLOSURE_BOUNDS, EstimatorReport, FactorInspection, Inspection, SolutionInspection, WorstRow,
-};
+use crate::inspect::{CLOSURE_BOUNDS, FactorInspection, Inspection, SolutionInspection, WorstRow};
 use crate::lines::{class_line, closure_line, error_line, indented, labelled, row_line};
 use crate::resources::{bytes, grouped};
 use radiosity_cache::{Miss, open};
@@ -80,7 +78,7 @@ fn surface_names(
 fn factor_lines(found: &FactorInspection) -> Vec<String> {
     let made = format!(
         "{}; {} patches of {} surfaces",
-        estimator(&found.estimator),
+        found.estimator.text(),
         grouped(found.patches as u64),
         grouped(found.surfaces as u64),
     );
@@ -107,27 +105,6 @@ fn factor_lines(found: &FactorInspection) -> Vec<String> {
             .map(|(k, row)| labelled(if k == 0 { "worst rows" } else { "" }, &worst_line(row))),
     );
     lines
-}
-
-fn estimator(made: &EstimatorReport) -> String {
-    let setting = |name: &str, value: Option<String>| {
-        value.map_or(String::new(), |value| format!(", {name} {value}"))
-    };
-    let EstimatorReport {
-        mode,
-        points,
-        pairs,
-        seed,
-        tolerance,
-    } = made;
-    [
-        (*mode).to_owned(),
-        setting("points", points.map(|n| n.to_string())),
-        setting("pairs", pairs.map(|n| n.to_string())),
-        setting("seed", seed.map(|n| n.to_string())),
-        setting("tolerance", tolerance.map(|x| format!("{x:e}"))),
-    ]
-    .concat()
 }
 
 /// A bar for each class of rows.

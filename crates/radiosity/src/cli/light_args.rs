@@ -15,6 +15,9 @@ pub struct LightArgs {
     /// Factors on the red, green and blue of a light; once for each light
     #[arg(long, value_name = "LIGHT=R,G,B", value_parser = parse_tint)]
     pub tint: Vec<(String, [f64; 3])>,
+    /// Switch all other lights off
+    #[arg(long, value_name = "LIGHT,..", value_delimiter = ',')]
+    pub only: Vec<String>,
 }
 
 impl LightArgs {
@@ -27,6 +30,15 @@ impl LightArgs {
         for (name, tint) in &self.tint {
             light(scene, name)?.tint = *tint;
         }
+        for name in &self.only {
+            light(scene, name)?;
+        }
+        let is_off = |light: &&mut Light| !self.only.is_empty() && !self.only.contains(&light.name);
+        scene
+            .lights
+            .iter_mut()
+            .filter(is_off)
+            .for_each(|light| light.dim = 0.0);
         Ok(())
     }
 }

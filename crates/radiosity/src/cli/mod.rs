@@ -6,16 +6,23 @@ mod cache_folder;
 mod check;
 mod choices;
 mod compare;
+mod display;
 mod form_factors;
 mod image_args;
 mod inspect;
 mod light_args;
+mod live;
+mod look;
 mod parse;
+mod print;
 mod reference;
 mod run;
+mod save;
+mod show_args;
 mod site;
 mod solver_args;
 pub(crate) mod terminal;
+mod view_args;
 
 pub use args::{
     CacheAction, CacheArgs, CacheCommand, CheckArgs, Command, CompareCommand, DisplayCommand,
@@ -24,8 +31,10 @@ pub use args::{
 pub use image_args::{DisplayArgs, ImageArgs};
 pub use light_args::LightArgs;
 pub use run::run;
+pub use show_args::ShowArgs;
 pub use site::Site;
 pub use solver_args::SolveArgs;
+pub use view_args::ViewArgs;
 
 /// For the end of help texts.
 pub const EXIT_CODES: &str = "\

@@ -126,6 +126,30 @@ pub(super) fn parse_angle(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A patch by its surface and its place there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PatchName {
+    /// The surface.
+    pub surface: String,
+    /// As exported tables have it: the cell along either edge, or a polygon of a mesh file and the
+    /// position in it.
+    pub cell: [u32; 2],
+}
+
+/// `floor:3,4`.
+pub(super) fn parse_patch(text: &str) -> Result<PatchName, String> {
+    let known = text.rsplit_once(':').and_then(|(surface, cell)| {
+        let (a, b) = cell.split_once(',')?;
+        Some(PatchName {
+            surface: surface.to_owned(),
+            cell: [a.trim().parse().ok()?, b.trim().parse().ok()?],
+        })
+    });
+    known.ok_or(
+        "expected a surface and two numbers, as in exported tables, like floor:3,4".to_owned(),
+    )
+}
+
 /// `lamp=0.3`.
 pub(super) fn parse_dim(text: &str) -> Result<(String, f64), String> {
     let (light, factor) = of_light(text)?;

@@ -221,7 +221,11 @@ fn save(
     };
     let (radiance, error) = (image(&traced.radiance), image(&traced.standard_error));
     let tone = tone_map(&scene.image);
-    let png = encode(&tone.apply(&radiance), PictureFormat::Png(tone.transfer));
+    let png = encode(
+        &tone.apply(&radiance),
+        PictureFormat::Png(tone.transfer),
+        &[],
+    );
     let files = [
         ("radiance", "reference.pfm", encode_pfm(&radiance)),
         ("standard_error", "reference-error.pfm", encode_pfm(&error)),

@@ -1,12 +1,11 @@
 //! What each command does.
 
-use super::args::{Command, DisplayCommand, EstimateArgs, SolveCommand};
+use super::args::{Command, EstimateArgs, SolveCommand};
 use super::cache_folder;
 use super::check;
-use super::choices::FormatArg;
 use super::compare;
+use super::display;
 use super::form_factors;
-use super::image_args::DisplayArgs;
 use super::inspect;
 use super::reference;
 use super::site::Site;
@@ -17,15 +16,11 @@ use crate::error::Error;
 use crate::export::radiosity_table;
 use crate::pipeline::{PatchLight, Pipeline};
 use crate::plot::convergence_plot;
-use crate::report::{DisplayReport, Report};
-use crate::settings::tone_map;
+use crate::report::Report;
 use radiosity_cache::{Store, replace_file_by};
-use radiosity_renderer::{Image, PictureFormat, Shading, encode, encode_deep_png, encode_pfm};
-use radiosity_scene::{ImageSettings, Scene};
 use radiosity_simd::InstructionSet;
-use std::collections::BTreeMap;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -38,7 +33,7 @@ pub fn run(command: &Command, site: &Site) -> ExitCode {
         ));
     }
     let result = match command {
-        Command::Render(args) | Command::Display(args) => display(args, site),
+        Command::Render(args) | Command::Display(args) => display::run(args, site),
         Command::FormFactors(args) => form_factors::run(args, site),
         Command::Solve(args) => solve(args, site, Sources::Computed),
         Command::Relight(args) => solve(args, site, Sources::Cached),
@@ -89,47 +84,8 @@ fn solve(args: &SolveCommand, site: &Site, sources: Sources) -> Result<(), Error
     })
 }
 
-fn display(args: &DisplayCommand, site: &Site) -> Result<(), Error> {
-    let mut scene = site.load(&args.scene.scene)?;
-    args.scene.apply(&mut scene);
-    args.estimate.apply(&mut scene);
-    args.solve.apply(&mut scene);
-    args.lights.apply(&mut scene)?;
-    args.display.apply(&mut scene);
-    if scene.camera.is_none() {
-        return Err(Error::NoCamera);
-    }
-    if args.solve.preview.is_some() && args.display.shadings().contains(&Shading::Exact) {
-        return Err(Error::Input(
-            "a preview does not know direct light apart\n   = help: leave out --preview, or --direct exact"
-                .to_owned(),
-        ));
-    }
-    let folder = args.display.output.as_ref().unwrap_or(&site.output);
-    make_folder(folder)?;
-    let terminal = Terminal::new(args.estimate.json);
-    with_threads(args.estimate.threads, || {
-        let store = store(&args.estimate, site);
-        let mut pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
-        let mut report = Report::new(&scene, pipeline.mesh(), &terminal);
-        let light = light(&mut pipeline, &args.solve, Sources::Cached, &mut report)?;
-        let start = Instant::now();
-        let shadings = args.display.shadings();
-        let pictures = pipeline.pictures(&light, shadings)?;
-        let named = shadings.iter().map(|shading| name_of(*shading));
-        let outputs = save(named.zip(&pictures), &scene, &args.display, folder)?;
-        report.display(DisplayReport {
-            seconds: start.elapsed().as_secs_f64(),
-        });
-        for (name, path) in outputs {
-            report.output(&name, &path);
-        }
-        report.finish()
-    })
-}
-
 /// What patches shine with, with each stage reported as soon as it is done.
-fn light(
+pub(super) fn light(
     pipeline: &mut Pipeline<'_>,
     args: &SolveArgs,
     sources: Sources,
@@ -192,61 +148,6 @@ pub(super) fn make_folder(folder: &Path) -> Result<(), Error> {
         path: folder.to_owned(),
         error,
     })
-}
-
-/// How the pictures by a shading are called.
-fn name_of(shading: Shading) -> &'static str {
-    match shading {
-        Shading::Constant => "constant",
-        Shading::Smooth => "smooth",
-        Shading::Exact => "exact",
-    }
-}
-
-/// Writes pictures in all formats; returns the name and path of each file. The first format's files
-/// are called as the pictures, others have the format appended.
-fn save<'a>(
-    pictures: impl Iterator<Item = (&'static str, &'a Image)>,
-    scene: &Scene,
-    args: &DisplayArgs,
-    folder: &Path,
-) -> Result<BTreeMap<String, PathBuf>, Error> {
-    let mut outputs = BTreeMap::new();
-    for (kind, image) in pictures {
-        for (index, format) in args.format.iter().enumerate() {
-            let (label, ending) = match format {
-                FormatArg::Ppm => ("ppm", "ppm"),
-                FormatArg::PlainPpm => ("plain_ppm", "plain.ppm"),
-                FormatArg::Png => ("png", "png"),
-                FormatArg::Png16 => ("png16", "16.png"),
-                FormatArg::Pfm => ("pfm", "pfm"),
-            };
-            let path = folder.join(format!("{}-{kind}.{ending}", scene.name));
-            write(&path, &encoded(image, &scene.image, *format))?;
-            let name = if index == 0 {
-                kind.to_owned()
-            } else {
-                format!("{kind}_{label}")
-            };
-            // The same format twice is the same file once.
-            if !outputs.values().any(|known| *known == path) {
-                outputs.insert(name, path);
-            }
-        }
-    }
-    Ok(outputs)
-}
-
-fn encoded(image: &Image, settings: &ImageSettings, format: FormatArg) -> Vec<u8> {
-    let tone = tone_map(settings);
-    let shown = |format| encode(&tone.apply(image), format);
-    match format {
-        FormatArg::Ppm => shown(PictureFormat::Ppm),
-        FormatArg::PlainPpm => shown(PictureFormat::PlainPpm),
-        FormatArg::Png => shown(PictureFormat::Png(tone.transfer)),
-        FormatArg::Png16 => encode_deep_png(&tone.apply_deep(image), tone.transfer),
-        FormatArg::Pfm => encode_pfm(image),
-    }
 }
 
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {

@@ -8,7 +8,7 @@ use crate::resources::check_image;
 use crate::settings;
 use radiosity_form_factors::FormFactors;
 use radiosity_geometry::Camera;
-use radiosity_renderer::{Fields, Image, Renderer, Shading};
+use radiosity_renderer::{Fields, Image, ImageParams, Renderer, Shading};
 
 /// What of the light is shown, or of what it was made from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,6 +101,24 @@ impl Pipeline<'_> {
     pub fn renderer<'s>(&'s self, shown: &'s Shown, shadings: &[Shading]) -> Renderer<'s> {
         let crease_angle = self.scene.image.crease_angle;
         Renderer::new(&self.mesh, &shown.fields(), crease_angle, shadings)
+    }
+
+    /// What a camera sees, in few pixels and by few samples.
+    pub fn glance(
+        &self,
+        renderer: &Renderer<'_>,
+        camera: &Camera,
+        (width, height): (u32, u32),
+    ) -> Vec<Image> {
+        let params = ImageParams {
+            width,
+            height,
+            subpixels: 1,
+            samples: 4,
+            adaptive: 1,
+            ..settings::image_params(self.scene)
+        };
+        renderer.render(camera, &params, &|_| ())
     }
 
     /// What a camera sees: the quantity over pi, by each of the renderer's shadings.

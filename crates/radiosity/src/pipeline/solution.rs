@@ -168,6 +168,11 @@ impl Pipeline<'_> {
         Ok((solution, facts.rows, facts.visible))
     }
 
+    /// The identity of the solution: of all that it is made from.
+    pub fn solution_key(&self) -> Key {
+        self.solution_id().key
+    }
+
     fn solution_id(&self) -> Id<'_> {
         let inputs = (
             facts::SOLUTION_VERSION,

@@ -1,0 +1,89 @@
+//! How an image becomes what a screen or a file holds.
+
+use super::look::Number;
+use radiosity_renderer::{
+    ColorScale, DeepPicture, Image, Outlines, Picture, ToneMap, Transfer, with_legend,
+};
+
+/// Which levels numbers have.
+#[derive(Clone)]
+pub(super) enum Palette {
+    Tones(ToneMap),
+    Colors(ColorScale, Number),
+}
+
+/// An image and all that it takes to show it.
+pub(super) struct Print<'a> {
+    pub(super) palette: &'a Palette,
+    /// The quantity over pi.
+    pub(super) image: &'a Image,
+    /// Where patches end, if lines are wanted.
+    pub(super) outlines: Option<&'a Outlines>,
+    /// Whether lines of equal numbers are drawn over false colours.
+    pub(super) isolines: bool,
+    /// Whether the borders of patches are drawn.
+    pub(super) patch_lines: bool,
+}
+
+/// Lines over pictures.
+const LINES: [u8; 3] = [255; 3];
+/// Of the borders of patches, which are many.
+const FAINT: f32 = 0.3;
+
+impl Palette {
+    /// The levels alone, without lines and legend.
+    pub(super) fn paint(&self, image: &Image) -> Picture {
+        match self {
+            Palette::Tones(tone) => tone.apply(image),
+            Palette::Colors(scale, number) => scale.paint(&number.of(image)),
+        }
+    }
+
+    /// The curve that levels are made by.
+    pub(super) fn transfer(&self) -> Transfer {
+        match self {
+            Palette::Tones(tone) => tone.transfer,
+            Palette::Colors(..) => Transfer::Srgb,
+        }
+    }
+}
+
+impl Print<'_> {
+    /// What a screen shows.
+    pub(super) fn screen(&self) -> Picture {
+        let mut picture = self.palette.paint(self.image);
+        if let Some(outlines) = self.outlines {
+            if let Palette::Colors(scale, number) = self.palette
+                && self.isolines
+            {
+                let levels = scale.ticks();
+                outlines.draw_isolines(&mut picture, &number.of(self.image), &levels, LINES);
+            }
+            if self.patch_lines {
+                outlines.draw(&mut picture, LINES, FAINT);
+            }
+        }
+        match self.palette {
+            Palette::Tones(_) => picture,
+            Palette::Colors(scale, number) => {
+                with_legend(&picture, scale, number.title, &number.unit)
+            }
+        }
+    }
+
+    /// The same with 16 bits; false colours and lines have no more than 8.
+    pub(super) fn deep_screen(&self) -> DeepPicture {
+        match self.palette {
+            Palette::Tones(tone) if !self.patch_lines => tone.apply_deep(self.image),
+            _ => self.screen().deepened(),
+        }
+    }
+
+    /// The numbers, and their unit.
+    pub(super) fn linear(&self) -> (Image, &str) {
+        match self.palette {
+            Palette::Tones(_) => (self.image.clone(), "W/m²/sr"),
+            Palette::Colors(_, number) => (number.linear(self.image), &number.unit),
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! Pictures into files.
+
+use super::choices::FormatArg;
+use super::print::Print;
+use super::run::write;
+use crate::error::Error;
+use crate::inspect::EstimatorReport;
+use crate::pipeline::Pipeline;
+use crate::settings::estimator;
+#[cfg(feature = "openexr")]
+use radiosity_renderer::encode_exr;
+use radiosity_renderer::{
+    Metadata, Picture, PictureFormat, Transfer, encode, encode_deep_png, encode_hdr, encode_pfm,
+};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Where pictures go, and what they say of themselves.
+pub(super) struct Folder<'a> {
+    path: &'a Path,
+    formats: &'a [FormatArg],
+    scene: String,
+    metadata: Vec<(&'static str, String)>,
+    /// The files that are written, by their names in reports.
+    pub(super) written: BTreeMap<String, PathBuf>,
+}
+
+impl<'a> Folder<'a> {
+    /// `solution` is the key of what is shown, if it has one.
+    pub(super) fn new(
+        path: &'a Path,
+        formats: &'a [FormatArg],
+        pipeline: &Pipeline<'_>,
+        is_preview: bool,
+    ) -> Folder<'a> {
+        let scene = pipeline.scene();
+        let patches = pipeline.mesh().patches.len();
+        let solution = if is_preview {
+            "none: a preview".to_owned()
+        } else {
+            pipeline.solution_key().to_string()
+        };
+        let version = concat!("radiosity ", env!("CARGO_PKG_VERSION"));
+        Folder {
+            path,
+            formats,
+            scene: scene.name.clone(),
+            metadata: vec![
+                ("Software", version.to_owned()),
+                ("Scene", scene.name.clone()),
+                ("Solution", solution),
+                (
+                    "Settings",
+                    format!(
+                        "{patches} patches; {}",
+                        EstimatorReport::of(estimator(scene)).text()
+                    ),
+                ),
+            ],
+            written: BTreeMap::new(),
+        }
+    }
+
+    /// Writes a picture in all formats. The first format's file is called as the picture, others
+    /// have the format appended.
+    pub(super) fn save(&mut self, name: &str, print: &Print<'_>) -> Result<(), Error> {
+        for index in 0..self.formats.len() {
+            let format = self.formats[index];
+            let (label, ending) = format.label_and_ending();
+            let path = self.path.join(format!("{}-{name}.{ending}", self.scene));
+            // The same format twice is the same file once.
+            if self.written.values().any(|known| *known == path) {
+                continue;
+            }
+            write(&path, &self.encoded(name, print, format))?;
+            let name = if index == 0 {
+                name.to_owned()
+            } else {
+                format!("{name}_{label}")
+            };
+            self.written.insert(name, path);
+        }
+        Ok(())
+    }
+
+    /// Writes a picture of pictures, as PNG.
+    pub(super) fn save_sheet(&mut self, sheet: &Picture) -> Result<(), Error> {
+        let path = self.path.join(format!("{}-sheet.png", self.scene));
+        let format = PictureFormat::Png(Transfer::Srgb);
+        write(&path, &encode(sheet, format, &self.metadata))?;
+        self.written.insert("sheet".to_owned(), path);
+        Ok(())
+    }
+
+    fn encoded(&self, name: &str, print: &Print<'_>, format: FormatArg) -> Vec<u8> {
+        let shown = |unit: &str| {
+            let own = [("Picture", name.to_owned()), ("Unit", unit.to_owned())];
+            [&self.metadata[..], &own].concat()
+        };
+        let levels = |format| encode(&print.screen(), format, &shown("levels of a screen"));
+        let linear = |encode: fn(&radiosity_renderer::Image, &Metadata<'_>) -> Vec<u8>| {
+            let (image, unit) = print.linear();
+            encode(&image, &shown(unit))
+        };
+        let transfer = print.palette.transfer();
+        match format {
+            FormatArg::Ppm => levels(PictureFormat::Ppm),
+            FormatArg::PlainPpm => levels(PictureFormat::PlainPpm),
+            FormatArg::Png => levels(PictureFormat::Png(transfer)),
+            FormatArg::Png16 => {
+                let metadata = shown("levels of a screen");
+                encode_deep_png(&print.deep_screen(), transfer, &metadata)
+            }
+            FormatArg::Pfm => linear(|image, _| encode_pfm(image)),
+            FormatArg::Hdr => linear(encode_hdr),
+            #[cfg(feature = "openexr")]
+            FormatArg::Exr => linear(encode_exr),
+        }
+    }
+}
+
+impl FormatArg {
+    /// What it is called in reports, and how its files end.
+    fn label_and_ending(self) -> (&'static str, &'static str) {
+        match self {
+            FormatArg::Ppm => ("ppm", "ppm"),
+            FormatArg::PlainPpm => ("plain_ppm", "plain.ppm"),
+            FormatArg::Png => ("png", "png"),
+            FormatArg::Png16 => ("png16", "16.png"),
+            FormatArg::Pfm => ("pfm", "pfm"),
+            FormatArg::Hdr => ("hdr", "hdr"),
+            #[cfg(feature = "openexr")]
+            FormatArg::Exr => ("exr", "exr"),
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! What pictures show, on the command line.
+
+use super::choices::ShowArg;
+use super::parse::{PatchName, parse_patch, parse_positive};
+use clap::Args;
+
+/// What pictures show.
+#[derive(Debug, Args)]
+pub struct ShowArgs {
+    /// What pictures show: light as an eye would see it, or quantities in false colours [default:
+    /// light]
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "WHAT,..")]
+    pub show: Vec<ShowArg>,
+    /// Show the form factors from one patch to all others: a surface, and the patch's two numbers in
+    /// exported tables
+    #[arg(long, value_name = "SURFACE:A,B", value_parser = parse_patch)]
+    pub factors_of: Option<PatchName>,
+    /// The number that has the brightest false colour [default: a round one that 2 % of the picture
+    /// exceed]
+    #[arg(long, value_name = "X", value_parser = parse_positive, allow_negative_numbers = true)]
+    pub top: Option<f64>,
+    /// False colours over three decades, not from 0
+    #[arg(long)]
+    pub log: bool,
+    /// Draw lines of equal numbers over false colours, at those of the legend
+    #[arg(long)]
+    pub isolines: bool,
+    /// Draw the borders of patches over pictures
+    #[arg(long)]
+    pub patch_lines: bool,
+    /// Luminous flux of a watt of light, for illuminance [default: the scene's, or 683]
+    #[arg(long, value_name = "LM/W", value_parser = parse_positive, allow_negative_numbers = true)]
+    pub lumens_per_watt: Option<f64>,
+}
