@@ -4,7 +4,7 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use radiosity_geometry::{Camera, DVec3, Divisions, Mesh, Shape, Surface, subdivide};
-use radiosity_renderer::{Fields, ImageParams, Renderer, Shading};
+use radiosity_renderer::{Fields, ImageParams, Renderer, Shading, ShadingParams};
 
 const BOTH: [Shading; 2] = [Shading::Constant, Shading::Smooth];
 
@@ -75,6 +75,7 @@ fn pictures(criterion: &mut Criterion) {
         let same = vec![[0.5; 3]; radiosity.len()];
         let fields = Fields {
             sources: &same,
+            reflected: &same,
             emission: &same,
             reflectance: &same,
             radiosity: &radiosity,
@@ -82,7 +83,13 @@ fn pictures(criterion: &mut Criterion) {
             visible: &vec![1.0; radiosity.len()],
         };
         group.bench_function(name, |b| {
-            b.iter(|| Renderer::new(&mesh, &fields, 30.0, &BOTH).render(&camera, &params, &|_| ()));
+            b.iter(|| {
+                Renderer::new(&mesh, &fields, &ShadingParams::default(), &BOTH).render(
+                    &camera,
+                    &params,
+                    &|_| (),
+                )
+            });
         });
     }
     group.finish();

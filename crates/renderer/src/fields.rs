@@ -9,9 +9,11 @@ use crate::Rgb;
 pub struct Fields<'a> {
     /// Radiant exitance that patches send to others, W/m^2: where direct light comes from.
     pub sources: &'a [Rgb],
-    /// What is shown of it on the patch itself.
+    /// What patches send to others beside, W/m^2: where indirect light comes from.
+    pub reflected: &'a [Rgb],
+    /// What is shown of the patch's own exitance.
     pub emission: &'a [Rgb],
-    /// Diffuse reflectance, in [0, 1]: how much is shown of direct light.
+    /// Diffuse reflectance, in [0, 1]: how much is shown of what arrives.
     pub reflectance: &'a [Rgb],
     /// Radiosity, W/m^2: all that is shown.
     pub radiosity: &'a [Rgb],

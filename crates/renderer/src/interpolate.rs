@@ -2,10 +2,10 @@
 
 use crate::Rgb;
 use crate::bicubic::{Piece, pieces};
-use crate::exposed::{continued, is_exposed};
+use crate::exposed::{continued, exposed, is_exposed};
 use crate::fields::Fields;
 use crate::vertex::VertexValues;
-use radiosity_geometry::{DVec2, Face, FaceId, Grid, Mesh};
+use radiosity_geometry::{DVec2, DVec3, Face, FaceId, Grid, Mesh};
 use radiosity_simd::{Float, LANES, Simd};
 
 /// Looks up radiosities at points.
@@ -105,6 +105,32 @@ impl<'a> Interpolant<'a> {
         }
     }
 
+    /// Interpolates means over patches, of which parts may be hidden: those have the value of `dark`.
+    pub(crate) fn exposed(
+        mesh: &'a Mesh,
+        (fields, crease_angle): (&Fields<'_>, f64),
+        means: &[Rgb],
+        dark: impl Fn(usize) -> Rgb,
+    ) -> Interpolant<'a> {
+        let value = |(k, mean): (usize, &Rgb)| exposed(fields, k, *mean, dark(k));
+        let values: Vec<Rgb> = means.iter().enumerate().map(value).collect();
+        Interpolant::new(mesh, fields, &values, crease_angle)
+    }
+
+    /// The smooth value at a point of a face that has patches.
+    pub(crate) fn at_point(&self, id: FaceId, point: DVec3) -> Rgb {
+        let face = &self.mesh.faces[id.index()];
+        let (cell, at) = face.grid.cell_at(face.coordinates(point));
+        let patch = face.first_patch + cell;
+        let value = match self.grids[id.index()] {
+            Some(first) => value_of(&self.pieces[first as usize + cell], at),
+            None => self
+                .vertices
+                .at(&self.mesh.patches[patch].polygon, patch, at),
+        };
+        value.map(|channel| channel.max(0.0))
+    }
+
     /// The smooth values at places; never negative, though a bicubic may be.
     #[inline(always)]
     pub(crate) fn at<S: Simd>(&self, simd: S, (places, local): (&Places, &Local)) -> [S::F32; 3] {
@@ -133,6 +159,20 @@ impl<'a> Interpolant<'a> {
         }
         values
     }
+}
+
+/// A piece at one place.
+fn value_of(piece: &Piece, at: DVec2) -> Rgb {
+    let (s, t) = (at.x as f32, at.y as f32);
+    let mut value = [0.0; 3];
+    for coefficients in piece.chunks_exact(4).rev() {
+        let row = |c: usize| {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|j: usize| coefficients[j][c]);
+            ((d * t + c) * t + b) * t + a
+        };
+        value = std::array::from_fn(|c| value[c] * s + row(c));
+    }
+    value
 }
 
 /// A piece at places, by Horner's rule.

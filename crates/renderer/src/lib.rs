@@ -13,6 +13,7 @@ mod encode;
 mod exposed;
 mod false_color;
 mod fields;
+mod gather;
 mod hanging;
 mod image;
 mod interpolate;
@@ -37,7 +38,7 @@ pub use image::{Image, Values};
 pub use lines::Outlines;
 pub use params::ImageParams;
 pub use picture::{DeepPicture, Picture};
-pub use render::{Renderer, Shading};
+pub use render::{Renderer, Shading, ShadingParams};
 pub use sheet::contact_sheet;
 pub use tone::{Curve, Exposure, LUMINANCE, ToneMap, Transfer};
 

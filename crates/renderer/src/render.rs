@@ -22,11 +22,32 @@ pub enum Shading {
     Smooth,
     /// Direct light as it is at each sample, and the rest interpolated smoothly.
     Exact,
+    /// The rest gathered at each sample, too.
+    Gathered,
+}
+
+/// How light is shown beside the shading.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShadingParams {
+    /// Degrees between normals below which neighbouring faces of a mesh are shaded as one smooth
+    /// surface.
+    pub crease_angle: f64,
+    /// Directions in which [`Shading::Gathered`] looks from each sample.
+    pub directions: u32,
+}
+
+impl Default for ShadingParams {
+    fn default() -> ShadingParams {
+        ShadingParams {
+            crease_angle: 30.0,
+            directions: 16,
+        }
+    }
 }
 
 impl Shading {
     /// How many there are.
-    const COUNT: usize = 3;
+    const COUNT: usize = 4;
 }
 
 /// The light on a mesh, ready to be looked at from anywhere.
@@ -36,8 +57,7 @@ pub struct Renderer<'a> {
 }
 
 impl<'a> Renderer<'a> {
-    /// For pictures by each of some shadings. Neighbouring faces of a surface are shaded as one where
-    /// the angle between their normals is below the crease angle, in degrees.
+    /// For pictures by each of some shadings.
     ///
     /// # Panics
     ///
@@ -45,14 +65,14 @@ impl<'a> Renderer<'a> {
     pub fn new(
         mesh: &'a Mesh,
         fields: &Fields<'a>,
-        crease_angle: f64,
+        params: &ShadingParams,
         shadings: &[Shading],
     ) -> Renderer<'a> {
         let is_new = |k: usize| !shadings[..k].contains(&shadings[k]);
         assert!((0..shadings.len()).all(is_new), "each shading once");
         Renderer {
             mesh,
-            shader: Shader::new(mesh, fields, crease_angle, shadings),
+            shader: Shader::new(mesh, fields, params, shadings),
         }
     }
 
@@ -125,6 +145,15 @@ struct Row<'a> {
     row: &'a mut [Rgb],
 }
 
+/// Which samples of a pixel are shaded: they share one sequence of further random numbers.
+#[derive(Default)]
+pub(crate) struct SampleNumbers {
+    /// Of the pixel.
+    pub(crate) scramble: [u32; 2],
+    /// The number of the sample in the first lane.
+    pub(crate) first: u32,
+}
+
 /// What the samples of a pixel have come to.
 struct Sums<F> {
     /// By shading and channel, in each lane.
@@ -149,11 +178,14 @@ impl Kernel for Row<'_> {
                 radiosity: [[simd.splat_f32(0.0); 3]; Shading::COUNT],
                 range: [simd.splat_f32(f32::INFINITY), simd.splat_f32(0.0)],
             };
+            room.numbers.scramble = view.samples.scramble_of(pixel);
             let mut rounds = 0;
             let mut wants_more = true;
             while wants_more && rounds < view.most_rounds {
                 let samples = view.samples.of_pixel(pixel.0, pixel.1, rounds);
                 let is_mixed = view.screen.look(simd, pixel, &samples.offsets, &mut seen);
+                let count = (LANES * samples.offsets.len()) as u32;
+                room.numbers.first = rounds * count;
                 view.add(simd, (pixel, samples), &seen, &mut room, &mut sums);
                 rounds += 1;
                 // What shows two faces may have missed one of them once.
@@ -191,8 +223,10 @@ impl View<'_> {
     ) {
         let zero = simd.splat_f32(0.0);
         let mut dark = !0;
+        let first = room.numbers.first;
         for seen in seen {
             let group = seen.group as usize;
+            room.numbers.first = first + (LANES * group) as u32;
             let Some(places) = self.places(simd, pixel, *seen, &samples.offsets[group]) else {
                 continue;
             };

@@ -42,6 +42,13 @@ impl SampleSets {
         }
     }
 
+    /// The digits that scramble a pixel's further random numbers.
+    pub(crate) fn scramble_of(&self, (x, y): (u32, u32)) -> [u32; 2] {
+        let place = u64::from(y) << 32 | u64::from(x);
+        let hash = mix(mix(place) ^ self.seed);
+        [hash as u32, (hash >> 32) as u32]
+    }
+
     /// The set of the pixel in column `x` and row `y`, in the round of samples of this number.
     pub(crate) fn of_pixel(&self, x: u32, y: u32, round: u32) -> &SampleSet {
         let place = u64::from(y) << 32 | u64::from(x);

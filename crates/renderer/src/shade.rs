@@ -2,10 +2,10 @@
 
 use crate::Rgb;
 use crate::direct::{Cutting, DirectLight, Points};
-use crate::exposed::exposed;
 use crate::fields::Fields;
+use crate::gather::Gather;
 use crate::interpolate::{Interpolant, Local, Places};
-use crate::render::Shading;
+use crate::render::{SampleNumbers, Shading, ShadingParams};
 use radiosity_geometry::Mesh;
 use radiosity_simd::{Float, Simd};
 
@@ -13,48 +13,52 @@ use radiosity_simd::{Float, Simd};
 pub(crate) struct Shader<'a> {
     fields: Fields<'a>,
     shadings: Vec<Shading>,
+    /// All light.
     smooth: Option<Interpolant<'a>>,
-    exact: Option<Exact<'a>>,
-}
-
-/// What comes straight from emitters, and what is reflected more often.
-struct Exact<'a> {
-    direct: DirectLight<'a>,
-    indirect: Interpolant<'a>,
+    /// What comes straight from emitters.
+    direct: Option<DirectLight<'a>>,
+    /// What is reflected more often, from patch to patch.
+    indirect: Option<Interpolant<'a>>,
+    /// The same, from patches to samples.
+    gather: Option<Gather<'a>>,
 }
 
 /// Memory that is used again and again.
 #[derive(Default)]
 pub(crate) struct Room {
     cutting: Cutting,
+    pub(crate) numbers: SampleNumbers,
 }
 
 impl<'a> Shader<'a> {
     pub(crate) fn new(
         mesh: &'a Mesh,
         fields: &Fields<'a>,
-        crease_angle: f64,
+        params: &ShadingParams,
         shadings: &[Shading],
     ) -> Shader<'a> {
-        let interpolant = |value: &dyn Fn(usize) -> Rgb| {
-            let values: Vec<Rgb> = (0..mesh.patches.len()).map(value).collect();
-            Interpolant::new(mesh, fields, &values, crease_angle)
+        let has = |shading| shadings.contains(&shading);
+        let with = (fields, params.crease_angle);
+        let emission = |k: usize| fields.emission[k];
+        let smooth = || Interpolant::exposed(mesh, with, fields.radiosity, emission);
+        let indirect = || {
+            let patches = 0..mesh.patches.len();
+            let rest = |k: usize| -> Rgb {
+                let (all, direct) = (fields.radiosity[k], fields.direct[k]);
+                std::array::from_fn(|c| all[c] - fields.emission[k][c] - direct[c])
+            };
+            let rest: Vec<Rgb> = patches.map(rest).collect();
+            Interpolant::exposed(mesh, with, &rest, |_| [0.0; 3])
         };
-        let (radiosity, emission) = (fields.radiosity, fields.emission);
-        let smooth = || interpolant(&|k| exposed(fields, k, radiosity[k], emission[k]));
-        let indirect = |k: usize| -> Rgb {
-            let rest = |c: usize| radiosity[k][c] - emission[k][c] - fields.direct[k][c];
-            exposed(fields, k, [rest(0), rest(1), rest(2)], [0.0; 3])
-        };
-        let exact = || Exact {
-            direct: DirectLight::new(mesh, fields.sources),
-            indirect: interpolant(&indirect),
-        };
+        let gather = || Gather::new(mesh, fields, params.crease_angle, params.directions);
+        let is_exact = has(Shading::Exact) || has(Shading::Gathered);
         Shader {
             fields: *fields,
             shadings: shadings.to_vec(),
-            smooth: shadings.contains(&Shading::Smooth).then(smooth),
-            exact: shadings.contains(&Shading::Exact).then(exact),
+            smooth: has(Shading::Smooth).then(smooth),
+            direct: is_exact.then(|| DirectLight::new(mesh, fields.sources)),
+            indirect: has(Shading::Exact).then(indirect),
+            gather: has(Shading::Gathered).then(gather),
         }
     }
 
@@ -64,7 +68,7 @@ impl<'a> Shader<'a> {
 
     /// Whether places are asked for their points in space.
     pub(crate) fn needs_points(&self) -> bool {
-        self.exact.is_some()
+        self.direct.is_some()
     }
 
     /// The radiosities at places by one of the shadings.
@@ -76,11 +80,21 @@ impl<'a> Shader<'a> {
         place: (&Places, &Local),
         room: &mut Room,
     ) -> [S::F32; 3] {
-        match (shading, &self.smooth, &self.exact) {
-            (Shading::Smooth, Some(smooth), _) => smooth.at(simd, place),
-            (Shading::Exact, _, Some(exact)) => self.exact(simd, exact, place, room),
-            _ => self.constant(simd, place),
+        let interpolated = match shading {
+            Shading::Constant => None,
+            Shading::Smooth => self.smooth.as_ref(),
+            Shading::Exact => self.indirect.as_ref(),
+            Shading::Gathered => return self.gathered(simd, place, room),
+        };
+        let Some(interpolant) = interpolated else {
+            return self.constant(simd, place);
+        };
+        let values = interpolant.at(simd, place);
+        if shading == Shading::Smooth {
+            return values;
         }
+        let nothing = [simd.splat_f32(0.0); 3];
+        self.with_direct(simd, [values, nothing], place, room)
     }
 
     /// The values of the patches at places.
@@ -100,14 +114,37 @@ impl<'a> Shader<'a> {
     }
 
     #[inline(always)]
-    fn exact<S: Simd>(
+    fn gathered<S: Simd>(
         &self,
         simd: S,
-        exact: &Exact<'_>,
         (places, local): (&Places, &Local),
         room: &mut Room,
     ) -> [S::F32; 3] {
-        let mut values = exact.indirect.at(simd, (places, local));
+        let nothing = [simd.splat_f32(0.0); 3];
+        let mut arriving = nothing;
+        if let Some(gather) = &self.gather {
+            let irradiance = gather.irradiance(places, &room.numbers);
+            for (arriving, channel) in arriving.iter_mut().zip(&irradiance) {
+                *arriving = simd.f32(channel);
+            }
+        }
+        self.with_direct(simd, [nothing, arriving], (places, local), room)
+    }
+
+    /// What patches emit and reflect of direct light at places, added to indirect light that leaves
+    /// there, and to what they reflect of indirect light that arrives there.
+    #[inline(always)]
+    fn with_direct<S: Simd>(
+        &self,
+        simd: S,
+        [leaving, arriving]: [[S::F32; 3]; 2],
+        (places, local): (&Places, &Local),
+        room: &mut Room,
+    ) -> [S::F32; 3] {
+        let mut values = leaving;
+        let Some(direct) = &self.direct else {
+            return values;
+        };
         let [x, y, z] = &places.points;
         let mut rest = places.lanes;
         while rest != 0 {
@@ -117,12 +154,12 @@ impl<'a> Shader<'a> {
                 at: [simd.f64(x), simd.f64(y), simd.f64(z)],
                 lanes: same,
             };
-            let irradiance = exact.direct.irradiance(simd, &points, &mut room.cutting);
+            let irradiance = direct.irradiance(simd, &points, &mut room.cutting);
             let (emission, reflectance) =
                 (self.fields.emission[patch], self.fields.reflectance[patch]);
             for c in 0..3 {
-                let direct = irradiance[c] * simd.splat_f32(reflectance[c]);
-                let sum = values[c] + direct + simd.splat_f32(emission[c]);
+                let reflected = (irradiance[c] + arriving[c]) * simd.splat_f32(reflectance[c]);
+                let sum = values[c] + reflected + simd.splat_f32(emission[c]);
                 values[c] = sum.select(same, values[c]);
             }
             rest &= !same;

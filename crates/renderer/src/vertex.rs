@@ -127,7 +127,7 @@ impl VertexValues {
     }
 
     /// The value at a point of a patch, given by the patch's own coordinates.
-    fn at(&self, polygon: &Polygon, patch: usize, at: DVec2) -> Rgb {
+    pub(crate) fn at(&self, polygon: &Polygon, patch: usize, at: DVec2) -> Rgb {
         let weights = weights(at.x as f32, at.y as f32, [0.0, 1.0], polygon.is_triangle());
         let mut value = [0.0; 3];
         for (weight, vertex) in weights.into_iter().zip(self.corners[patch]) {

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use radiosity_geometry::{
     Camera, DVec3, Divisions, FaceId, Mesh, Occluders, Polygon, Shape, Surface, subdivide,
 };
-use radiosity_renderer::{Fields, ImageParams, Renderer, Shading};
+use radiosity_renderer::{Fields, ImageParams, Renderer, Shading, ShadingParams};
 use std::f64::consts::PI;
 
 const EXITANCE: f32 = 3.0;
@@ -54,6 +54,7 @@ fn shown(mesh: &Mesh, at: DVec3, from: DVec3) -> f64 {
     let dark = vec![[0.0; 3]; patches];
     let fields = Fields {
         sources: &emission,
+        reflected: &emission,
         emission: &emission,
         reflectance: &reflectance,
         // Nothing is reflected more than once.
@@ -70,7 +71,7 @@ fn shown(mesh: &Mesh, at: DVec3, from: DVec3) -> f64 {
         samples: 1,
         ..ImageParams::default()
     };
-    let renderer = Renderer::new(mesh, &fields, 30.0, &[Shading::Exact]);
+    let renderer = Renderer::new(mesh, &fields, &ShadingParams::default(), &[Shading::Exact]);
     let image = &renderer.render(&camera, &params, &|_| ())[0];
     let [red, green, blue] = image.pixels[0].map(|radiance| f64::from(radiance) * PI);
     assert!((green - 0.5 * red).abs() < 1e-6 && blue == 0.0);

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use radiosity_geometry::{Camera, DVec3, Divisions, Mesh, PolygonMesh, Shape, Surface, subdivide};
-use radiosity_renderer::{Fields, Image, ImageParams, Renderer, Shading};
+use radiosity_renderer::{Fields, Image, ImageParams, Renderer, Shading, ShadingParams};
 use std::f32::consts::PI;
 
 fn cut(shapes: Vec<Shape>, divisions: u32) -> Mesh {
@@ -38,7 +38,7 @@ fn view(mesh: &Mesh, fields: &Fields<'_>, center: DVec3, height: f64, pixels: u3
         ..ImageParams::default()
     };
     let shadings = [Shading::Constant, Shading::Smooth];
-    let renderer = Renderer::new(mesh, fields, 30.0, &shadings);
+    let renderer = Renderer::new(mesh, fields, &ShadingParams::default(), &shadings);
     let pictures = renderer.render(&camera, &params, &|_| ());
     pictures.try_into().expect("a picture for each shading")
 }
@@ -48,6 +48,7 @@ fn with_fields<T>(radiosity: &[[f32; 3]], f: impl FnOnce(&Fields<'_>) -> T) -> T
     let same = vec![[0.5; 3]; radiosity.len()];
     f(&Fields {
         sources: &same,
+        reflected: &same,
         emission: &same,
         reflectance: &same,
         radiosity,
@@ -98,7 +99,11 @@ fn whatever_lies_before_the_near_distance_is_not_seen() {
             ..ImageParams::default()
         };
         let look = |f: &Fields<'_>| {
-            Renderer::new(&mesh, f, 30.0, &[Shading::Smooth]).render(&camera, &params, &|_| ())
+            Renderer::new(&mesh, f, &ShadingParams::default(), &[Shading::Smooth]).render(
+                &camera,
+                &params,
+                &|_| (),
+            )
         };
         with_fields(&radiosity, look)[0].pixels[0][0]
     };
@@ -259,6 +264,7 @@ fn hidden_parts_do_not_darken_what_is_seen() {
         let dark = vec![[0.0; 3]; radiosity.len()];
         let fields = Fields {
             sources: &dark,
+            reflected: &dark,
             emission: &dark,
             reflectance: &dark,
             radiosity: &radiosity,
@@ -283,6 +289,7 @@ fn materials_and_creases_keep_their_edges() {
         .collect();
     let fields = Fields {
         sources: &vec![[0.0; 3]; 128],
+        reflected: &vec![[0.0; 3]; 128],
         emission: &vec![[0.0; 3]; 128],
         reflectance: &reflectance,
         radiosity: &radiosity,

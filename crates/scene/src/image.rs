@@ -22,6 +22,8 @@ pub struct ImageSettings {
     /// How many times as many samples a pixel may take that shows several faces of different
     /// brightness.
     pub adaptive: u32,
+    /// In how many directions final gathering looks from each sample.
+    pub directions: u32,
     /// What is seen of the backs of faces.
     pub backs: Backs,
     /// Degrees between normals below which neighbouring faces are shaded as one smooth surface.
@@ -94,6 +96,7 @@ impl Exposure {
 /// The course's.
 const DEFAULT_GAMMA: f64 = 2.2;
 const DEFAULT_CREASE_ANGLE: f64 = 30.0;
+const DEFAULT_DIRECTIONS: u32 = 16;
 /// Of green light of 540 THz (BIPM, "The International System of Units", 9th edition, 2019).
 const DEFAULT_LUMENS_PER_WATT: f64 = 683.0;
 
@@ -106,6 +109,7 @@ pub(crate) struct ImageTable {
     filter: Option<PixelFilter>,
     samples: Option<Spanned<u32>>,
     adaptive: Option<Spanned<u32>>,
+    directions: Option<Spanned<u32>>,
     #[serde(default)]
     backs: Backs,
     crease_angle: Option<Spanned<f64>>,
@@ -136,6 +140,13 @@ impl ImageTable {
             filter: self.filter.unwrap_or_default(),
             samples: count(&self.samples, 4, "`samples`")?,
             adaptive: count(&self.adaptive, 1, "`adaptive`")?,
+            directions: whole(
+                &self.directions,
+                DEFAULT_DIRECTIONS,
+                4096,
+                "`directions`",
+                "between 1 and 4096",
+            )?,
             backs: self.backs,
             crease_angle: value_or(
                 source,

@@ -61,14 +61,15 @@ pub(super) fn run(args: &DisplayCommand, site: &Site) -> Result<(), Error> {
 
 /// Refuses what a preview does not know.
 fn check_preview(args: &DisplayCommand, looks: &[Look]) -> Result<(), Error> {
-    let is_exact = args.display.shadings().contains(&Shading::Exact);
+    let is_simple = |shading: &Shading| matches!(shading, Shading::Constant | Shading::Smooth);
+    let is_exact = !args.display.shadings().iter().all(is_simple);
     let is_known = |look: &Look| look.quantity == Quantity::Radiosity;
     if args.solve.preview.is_none() || !is_exact && looks.iter().all(is_known) {
         return Ok(());
     }
     Err(Error::Input(
         "a preview knows nothing but radiosities, and not direct light apart\n   \
-         = help: leave out --preview, or --direct exact and --show"
+         = help: leave out --preview, or --direct exact, --gather and --show"
             .to_owned(),
     ))
 }
@@ -145,5 +146,6 @@ fn name_of(shading: Shading) -> &'static str {
         Shading::Constant => "constant",
         Shading::Smooth => "smooth",
         Shading::Exact => "exact",
+        Shading::Gathered => "gathered",
     }
 }

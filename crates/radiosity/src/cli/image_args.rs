@@ -73,6 +73,10 @@ pub struct DisplayArgs {
     /// patch-constant and a smooth picture, or as it is at every sample, in one picture
     #[arg(long, value_enum, default_value = "patches")]
     pub direct: DirectArg,
+    /// Look around from each sample for the light that is reflected more often, in N directions
+    /// [default: 16]; light straight from emitters is exact then
+    #[arg(long, value_name = "N", num_args = 0..=1, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub gather: Option<Option<u32>>,
     /// Take up to N times as many samples where a pixel shows several faces of different
     /// brightness [default: 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
@@ -119,12 +123,16 @@ impl DisplayArgs {
         self.views.apply(scene);
         set(&mut scene.image.samples, self.samples);
         set(&mut scene.image.adaptive, self.adaptive);
+        set(&mut scene.image.directions, self.gather.flatten());
         set(&mut scene.image.crease_angle, self.crease_angle);
         set(&mut scene.image.lumens_per_watt, self.show.lumens_per_watt);
     }
 
     /// The pictures that are asked for.
     pub(crate) fn shadings(&self) -> &'static [Shading] {
+        if self.gather.is_some() {
+            return &[Shading::Gathered];
+        }
         match self.direct {
             DirectArg::Patches => &[Shading::Constant, Shading::Smooth],
             DirectArg::Exact => &[Shading::Exact],

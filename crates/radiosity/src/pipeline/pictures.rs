@@ -8,7 +8,7 @@ use crate::resources::check_image;
 use crate::settings;
 use radiosity_form_factors::FormFactors;
 use radiosity_geometry::Camera;
-use radiosity_renderer::{Fields, Image, ImageParams, Renderer, Shading};
+use radiosity_renderer::{Fields, Image, ImageParams, Renderer, Shading, ShadingParams};
 
 /// What of the light is shown, or of what it was made from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,6 +31,7 @@ pub enum Quantity {
 #[derive(Clone, Debug)]
 pub struct Shown {
     sources: Vec<[f32; 3]>,
+    reflected: Vec<[f32; 3]>,
     emission: Vec<[f32; 3]>,
     reflectance: Vec<[f32; 3]>,
     value: Vec<[f32; 3]>,
@@ -57,22 +58,24 @@ impl Pipeline<'_> {
         let reflectance: Vec<[f32; 3]> = self.reflectance.iter().map(to_f32).collect();
         let all = Shown {
             sources: emission.clone(),
+            reflected: difference(&light.radiosity, &emission),
             emission,
             reflectance,
             value: light.radiosity.clone(),
             direct: light.direct.clone(),
             visible: light.visible.clone(),
         };
-        let indirect = || difference(&difference(&all.value, &all.emission), &all.direct);
+        let indirect = || difference(&all.reflected, &all.direct);
         Ok(match quantity {
             Quantity::Radiosity => all,
             Quantity::Direct => Shown {
                 value: difference(&all.value, &indirect()),
+                reflected: nothing,
                 ..all
             },
             Quantity::Indirect => Shown {
                 value: indirect(),
-                reflectance: nothing.clone(),
+                sources: nothing.clone(),
                 emission: nothing.clone(),
                 direct: nothing,
                 ..all
@@ -99,8 +102,11 @@ impl Pipeline<'_> {
 
     /// Makes a quantity ready to be looked at from anywhere, by each of some shadings.
     pub fn renderer<'s>(&'s self, shown: &'s Shown, shadings: &[Shading]) -> Renderer<'s> {
-        let crease_angle = self.scene.image.crease_angle;
-        Renderer::new(&self.mesh, &shown.fields(), crease_angle, shadings)
+        let params = ShadingParams {
+            crease_angle: self.scene.image.crease_angle,
+            directions: self.scene.image.directions,
+        };
+        Renderer::new(&self.mesh, &shown.fields(), &params, shadings)
     }
 
     /// What a camera sees, in few pixels and by few samples.
@@ -144,6 +150,7 @@ impl Shown {
     fn fields(&self) -> Fields<'_> {
         Fields {
             sources: &self.sources,
+            reflected: &self.reflected,
             emission: &self.emission,
             reflectance: &self.reflectance,
             radiosity: &self.value,
@@ -158,6 +165,7 @@ fn table(values: Vec<f64>) -> Shown {
     let nothing = vec![[0.0; 3]; values.len()];
     Shown {
         sources: nothing.clone(),
+        reflected: nothing.clone(),
         emission: nothing.clone(),
         reflectance: nothing.clone(),
         visible: vec![1.0; values.len()],
