@@ -3,7 +3,7 @@
 use radiosity::geometry::{DVec3, Occluders, Patch, Polygon, Ray};
 use radiosity::scene::Mode;
 use radiosity::solver::Energy;
-use radiosity::{Pipeline, Solved, Sources};
+use radiosity::{PatchLight, Pipeline, Solved, Sources};
 use radiosity_tests::{pipeline, shipped, solve};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -21,9 +21,11 @@ struct Shares {
     background: f64,
 }
 
-/// From patches in proportion to the power that leaves them, in the direction of diffuse light.
-fn traced(pipeline: &Pipeline<'_>, radiosity: &[[f32; 3]]) -> Shares {
+/// From patches in proportion to the power that would leave them if nothing of them were hidden, in the
+/// direction of diffuse light. What hidden parts would send to backs does not count.
+fn traced(pipeline: &Pipeline<'_>, light: &PatchLight) -> Shares {
     let mesh = pipeline.mesh();
+    let radiosity = &light.radiosity;
     let occluders = Occluders::new(mesh);
     let mut ends = Vec::new();
     let mut power = 0.0;
@@ -42,12 +44,23 @@ fn traced(pipeline: &Pipeline<'_>, radiosity: &[[f32; 3]]) -> Shares {
         let what = hit.map_or(2, |hit| usize::from(!hit.front));
         counts[what] += 1;
     }
-    let [fronts, backs, background] = counts.map(|count| f64::from(count) / f64::from(RAYS));
+    let leaving = leaving(pipeline, light);
+    let of_leaving = |count| power / leaving * f64::from(count) / f64::from(RAYS);
+    let [fronts, backs, background] = counts.map(of_leaving);
     Shares {
         fronts,
-        backs,
+        backs: backs - (power - leaving) / leaving,
         background,
     }
+}
+
+/// The power that leaves all patches; those that are hidden in part emit nothing in these scenes.
+fn leaving(pipeline: &Pipeline<'_>, light: &PatchLight) -> f64 {
+    let means = pipeline.mean_radiosity(light);
+    let patches = pipeline.mesh().patches.iter().zip(&means);
+    patches
+        .map(|(patch, b)| patch.area * f64::from(b[GREEN]))
+        .sum()
 }
 
 fn point_on(patch: &Patch, rng: &mut Pcg64Mcg) -> DVec3 {
@@ -73,10 +86,7 @@ fn direction(normal: DVec3, rng: &mut Pcg64Mcg) -> DVec3 {
 
 /// What the report says, as shares of the power that leaves all patches.
 fn reported(pipeline: &Pipeline<'_>, solved: &Solved) -> Shares {
-    let patches = pipeline.mesh().patches.iter().zip(&solved.light.radiosity);
-    let power: f64 = patches
-        .map(|(patch, b)| patch.area * f64::from(b[GREEN]))
-        .sum();
+    let power = leaving(pipeline, &solved.light);
     let Energy {
         emitted,
         absorbed,
@@ -102,7 +112,7 @@ fn power_arrives_where_rays_do() {
         assert!(solved.solution.report.converged, "{name}");
         let (found, expected) = (
             reported(&pipeline, &solved),
-            traced(&pipeline, &solved.light.radiosity),
+            traced(&pipeline, &solved.light),
         );
         println!("{name}: {found:?}, by rays {expected:?}");
         for (found, expected) in [

@@ -51,7 +51,11 @@ fn accurate_factors_leave_the_error_of_the_patches() {
     let tables = [12, 24].map(|n| {
         scene.divisions = Divisions::uniform(n);
         let pipeline = pipeline(&scene);
-        radiosity_table(&scene, pipeline.mesh(), &solve(&pipeline).light.radiosity)
+        radiosity_table(
+            &scene,
+            pipeline.mesh(),
+            &pipeline.mean_radiosity(&solve(&pipeline).light),
+        )
     });
     let coarse = tables[1].coarsened(6).unwrap();
     for (found, n, most, bias) in [

@@ -12,7 +12,11 @@ const EXPOSURE: f64 = 4.0;
 
 /// The errors of radiosities of 12 x 12 patches against the table.
 pub fn radiosity_errors(scene: &Scene, pipeline: &Pipeline<'_>, solved: &Solved) -> Errors {
-    let found = radiosity_table(scene, pipeline.mesh(), &solved.light.radiosity);
+    let found = radiosity_table(
+        scene,
+        pipeline.mesh(),
+        &pipeline.mean_radiosity(&solved.light),
+    );
     table_errors(scene, &found, 12)
 }
 

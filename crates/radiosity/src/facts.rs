@@ -13,7 +13,7 @@ pub(crate) const SOLUTION: &str = "solution";
 /// Raise it whenever the layout of [`FactorFacts`] changes: it is part of their keys.
 pub(crate) const FACTORS_VERSION: u32 = 8;
 /// The same for [`SolutionFacts`].
-pub(crate) const SOLUTION_VERSION: u32 = 9;
+pub(crate) const SOLUTION_VERSION: u32 = 10;
 
 /// Beside the matrix of form factors.
 #[derive(Debug, Serialize, Deserialize)]
@@ -36,7 +36,7 @@ pub(crate) struct SolutionFacts {
     pub(crate) rows: RowSummary,
     /// The names of the lights, in the order of their radiosities. Their direct parts follow.
     pub(crate) lights: Vec<String>,
-    /// Of each patch, the share that can be seen.
+    /// Of each patch, the share that exchanges light; 0 where next to nothing of it does.
     pub(crate) visible: Vec<f32>,
 }
 

@@ -15,6 +15,7 @@ mod factors;
 mod pictures;
 mod preview;
 mod solution;
+mod visible;
 
 pub use pictures::{Quantity, Shown};
 pub use preview::Preview;
@@ -51,11 +52,13 @@ pub struct FormFactorsMade {
 /// What patches shine with, each list indexed by patch.
 #[derive(Clone, Debug)]
 pub struct PatchLight {
-    /// Radiosities, W/m^2 per channel, with the lights as bright as the scene has them.
+    /// Radiosities of what is visible of patches, W/m^2 per channel, with the lights as bright as the
+    /// scene has them.
     pub radiosity: Vec<[f32; 3]>,
     /// The part of them that patches reflect of what comes straight from emitters.
     pub direct: Vec<[f32; 3]>,
-    /// The share of each patch that can be seen.
+    /// The share of each patch that can be seen, and so exchanges light. 0 stands for too little to
+    /// tell it apart: the radiosity is then the mean over all of the patch.
     pub visible: Vec<f32>,
 }
 

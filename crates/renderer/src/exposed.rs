@@ -1,28 +1,13 @@
-//! What patches shine with where they can be seen.
-//!
-//! A patch of which a part lies inside of something, or is covered, has the mean radiosity of all of
-//! it; but pictures show the other part alone, which is brighter. And what is hidden altogether
-//! must not shine through to its neighbours by interpolation.
+//! Patches of which nothing can be seen: they must not shine through to their neighbours by
+//! interpolation.
 
 use crate::Rgb;
 use crate::fields::Fields;
 use radiosity_geometry::{Face, Grid};
 
-/// Patches of which less can be seen count as hidden: too little is known of that part.
-const LEAST_VISIBLE: f32 = 0.2;
-
 /// Whether enough of a patch can be seen.
 pub(crate) fn is_exposed(fields: &Fields<'_>, patch: usize) -> bool {
-    fields.visible[patch] >= LEAST_VISIBLE
-}
-
-/// The value of a patch where it can be seen, given the mean over all of it; `dark` is what the hidden
-/// part has.
-pub(crate) fn exposed(fields: &Fields<'_>, patch: usize, mean: Rgb, dark: Rgb) -> Rgb {
-    if !is_exposed(fields, patch) {
-        return mean;
-    }
-    std::array::from_fn(|c| dark[c] + (mean[c] - dark[c]) / fields.visible[patch])
+    fields.visible[patch] > 0.0
 }
 
 /// The values of a face's patches, where hidden ones continue their neighbours: for neighbours to be

@@ -15,11 +15,10 @@ pub struct Fields<'a> {
     pub emission: &'a [Rgb],
     /// Diffuse reflectance, in [0, 1]: how much is shown of what arrives.
     pub reflectance: &'a [Rgb],
-    /// Radiosity, W/m^2: all that is shown.
+    /// Radiosity of what can be seen of patches, W/m^2: all that is shown.
     pub radiosity: &'a [Rgb],
     /// The part of it that is light straight from emitters, reflected once.
     pub direct: &'a [Rgb],
-    /// The share of the patch that can be seen, in [0, 1]. The rest, inside of something or
-    /// covered, is taken to be dark.
+    /// The share of the patch that can be seen, in [0, 1]; of 0, neighbours take nothing over.
     pub visible: &'a [f32],
 }

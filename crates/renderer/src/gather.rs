@@ -33,9 +33,7 @@ impl<'a> Gather<'a> {
         Gather {
             mesh,
             occluders: Occluders::new(mesh),
-            reflected: Interpolant::exposed(mesh, (fields, crease_angle), fields.reflected, |_| {
-                [0.0; 3]
-            }),
+            reflected: Interpolant::new(mesh, (fields, crease_angle), fields.reflected),
             directions,
         }
     }

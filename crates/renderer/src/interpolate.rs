@@ -2,7 +2,7 @@
 
 use crate::Rgb;
 use crate::bicubic::{Piece, pieces};
-use crate::exposed::{continued, exposed, is_exposed};
+use crate::exposed::{continued, is_exposed};
 use crate::fields::Fields;
 use crate::vertex::VertexValues;
 use radiosity_geometry::{DVec2, DVec3, Face, FaceId, Grid, Mesh};
@@ -70,9 +70,8 @@ impl<'a> Interpolant<'a> {
     /// Interpolates values of patches.
     pub(crate) fn new(
         mesh: &'a Mesh,
-        fields: &Fields<'_>,
+        (fields, crease_angle): (&Fields<'_>, f64),
         values: &[Rgb],
-        crease_angle: f64,
     ) -> Interpolant<'a> {
         let surfaces = mesh.faces.iter().map(|face| face.surface.index());
         let mut faces_of = vec![0; surfaces.clone().max().map_or(0, |last| last + 1)];
@@ -103,18 +102,6 @@ impl<'a> Interpolant<'a> {
             grids,
             pieces: all,
         }
-    }
-
-    /// Interpolates means over patches, of which parts may be hidden: those have the value of `dark`.
-    pub(crate) fn exposed(
-        mesh: &'a Mesh,
-        (fields, crease_angle): (&Fields<'_>, f64),
-        means: &[Rgb],
-        dark: impl Fn(usize) -> Rgb,
-    ) -> Interpolant<'a> {
-        let value = |(k, mean): (usize, &Rgb)| exposed(fields, k, *mean, dark(k));
-        let values: Vec<Rgb> = means.iter().enumerate().map(value).collect();
-        Interpolant::new(mesh, fields, &values, crease_angle)
     }
 
     /// The smooth value at a point of a face that has patches.

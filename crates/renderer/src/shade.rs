@@ -39,8 +39,7 @@ impl<'a> Shader<'a> {
     ) -> Shader<'a> {
         let has = |shading| shadings.contains(&shading);
         let with = (fields, params.crease_angle);
-        let emission = |k: usize| fields.emission[k];
-        let smooth = || Interpolant::exposed(mesh, with, fields.radiosity, emission);
+        let smooth = || Interpolant::new(mesh, with, fields.radiosity);
         let indirect = || {
             let patches = 0..mesh.patches.len();
             let rest = |k: usize| -> Rgb {
@@ -48,7 +47,7 @@ impl<'a> Shader<'a> {
                 std::array::from_fn(|c| all[c] - fields.emission[k][c] - direct[c])
             };
             let rest: Vec<Rgb> = patches.map(rest).collect();
-            Interpolant::exposed(mesh, with, &rest, |_| [0.0; 3])
+            Interpolant::new(mesh, with, &rest)
         };
         let gather = || Gather::new(mesh, fields, params.crease_angle, params.directions);
         let is_exact = has(Shading::Exact) || has(Shading::Gathered);

@@ -240,7 +240,7 @@ fn slivers_do_no_harm() {
     }
 }
 
-/// What a patch has on its visible part is shown there; and a hidden one is not seen through its
+/// Hidden patches are not seen through their
 /// neighbours, on rectangles as on triangles.
 #[test]
 fn hidden_parts_do_not_darken_what_is_seen() {
@@ -260,7 +260,8 @@ fn hidden_parts_do_not_darken_what_is_seen() {
         };
         let visible: Vec<f32> = (0..mesh.patches.len()).map(share).collect();
         assert!(visible.contains(&0.0) && visible.contains(&1.0));
-        let radiosity: Vec<[f32; 3]> = visible.iter().map(|share| [2.0 * share; 3]).collect();
+        let lit = |share: &f32| if *share > 0.0 { 2.0 } else { 0.0 };
+        let radiosity: Vec<[f32; 3]> = visible.iter().map(|share| [lit(share); 3]).collect();
         let dark = vec![[0.0; 3]; radiosity.len()];
         let fields = Fields {
             sources: &dark,

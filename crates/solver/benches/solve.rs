@@ -16,6 +16,7 @@ fn solutions(criterion: &mut Criterion) {
         let system = System {
             exchange: &exchange,
             areas: &vec![1.0; size],
+            visible: &vec![1.0; size],
             reflectance: &vec![[0.5, 0.7, 0.9]; size],
             lights: &[light],
             backs: &vec![0.0; size],

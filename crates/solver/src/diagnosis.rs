@@ -60,7 +60,7 @@ pub(crate) fn check_spectral_radius(system: &System<'_>) -> Result<(), SolveErro
     let sums = system.exchange.row_sums();
     let reflected = |i: usize| {
         let strongest = system.reflectance[i].into_iter().fold(0.0, f64::max);
-        strongest * sums[i] * total / system.areas[i]
+        strongest * sums[i] * total / system.visible_area(i)
     };
     let mut worst_patches: Vec<usize> = (0..system.size()).collect();
     worst_patches.sort_by(|&a, &b| reflected(b).total_cmp(&reflected(a)));

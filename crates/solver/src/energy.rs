@@ -31,12 +31,16 @@ impl Energy {
             let (i, light) = (k / lights, k % lights);
             let (energy, unit) = (&mut energies[light], problem.units[light]);
             let watts = system.areas[i] * unit;
+            let hidden = 1.0 - system.visible[i];
+            // The hidden part sees nothing else.
+            let backs = (system.backs[i] - hidden).max(0.0);
+            let arrived = system.visible_area(i) * unit / problem.areas[i];
             for c in 0..3 {
-                let irradiance = sum[c] / problem.areas[i];
                 let left = watts * f64::from(x[c]);
-                energy.emitted[c] += watts * problem.emission[k][c];
-                energy.absorbed[c] += watts * (1.0 - system.reflectance[i][c]) * irradiance;
-                energy.to_backs[c] += system.backs[i] * left;
+                let emitted = watts * problem.emission[k][c];
+                energy.emitted[c] += emitted;
+                energy.absorbed[c] += (1.0 - system.reflectance[i][c]) * arrived * sum[c];
+                energy.to_backs[c] += backs * left + hidden * emitted;
                 energy.to_background[c] += system.background[i] * left;
             }
         }

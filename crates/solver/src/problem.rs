@@ -11,7 +11,7 @@ pub(crate) type Values<T> = Vec<Triple<T>>;
 /// no square of an ordinary number overflows or vanishes.
 pub(crate) struct Problem<'a> {
     pub(crate) exchange: &'a SymmetricMatrix,
-    /// Areas, relative to the total.
+    /// Areas that exchange light, relative to the total of all.
     pub(crate) areas: Vec<f64>,
     /// `rho_i / A_i`, with those areas, per patch.
     pub(crate) gain: Vec<Rgb>,
@@ -28,7 +28,8 @@ const FEW: usize = 32;
 impl<'a> Problem<'a> {
     pub(crate) fn new(system: &System<'a>) -> Problem<'a> {
         let total = system.total_area();
-        let areas: Vec<f64> = system.areas.iter().map(|area| area / total).collect();
+        let area = |i: usize| system.visible_area(i) / total;
+        let areas: Vec<f64> = (0..system.size()).map(area).collect();
         let gain = |(rho, &area): (&Rgb, &f64)| rho.map(|rho| rho / area);
         let gain = system.reflectance.iter().zip(&areas).map(gain).collect();
         let unit = |light: &Vec<Rgb>| {

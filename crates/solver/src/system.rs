@@ -11,6 +11,9 @@ pub struct System<'a> {
     pub exchange: &'a SymmetricMatrix,
     /// Patch areas, in square scene units.
     pub areas: &'a [f64],
+    /// The share of each patch that exchanges light, in (0, 1]; the rest lies inside of something, or is
+    /// covered. Radiosities are those of this part.
+    pub visible: &'a [f64],
     /// Diffuse reflectance of each patch, in [0, 1].
     pub reflectance: &'a [Rgb],
     /// Of each light, the radiant exitance that each patch emits itself, W/m^2, >= 0.
@@ -25,6 +28,11 @@ impl System<'_> {
     /// The sum of all patch areas.
     pub fn total_area(&self) -> f64 {
         self.areas.iter().sum()
+    }
+
+    /// The area of a patch that exchanges light.
+    pub(crate) fn visible_area(&self, i: usize) -> f64 {
+        self.visible[i] * self.areas[i]
     }
 
     pub(crate) fn size(&self) -> usize {

@@ -137,7 +137,11 @@ impl Oracle {
             Err(Error::Unsolvable { .. }) => return Ok(None),
             solved => solved?,
         };
-        let found = radiosity_table(scene, pipeline.mesh(), &solved.light.radiosity);
+        let found = radiosity_table(
+            scene,
+            pipeline.mesh(),
+            &pipeline.mean_radiosity(&solved.light),
+        );
         let all = table_errors(scene, pipeline.mesh(), &found, &self.table)?;
         let smooth = pipeline.pictures(&solved.light, &[Shading::Smooth])?;
         let squares = picture_rmse(&smooth[0], &self.picture, scene)?.powi(2);

@@ -71,7 +71,8 @@ fn solve(args: &SolveCommand, site: &Site, sources: Sources) -> Result<(), Error
         if let Some(path) = &args.export {
             write(
                 path,
-                &radiosity_table(&scene, pipeline.mesh(), &light.radiosity).to_csv(),
+                &radiosity_table(&scene, pipeline.mesh(), &pipeline.mean_radiosity(&light))
+                    .to_csv(),
             )?;
             report.output("export", path);
         }

@@ -1,5 +1,6 @@
 //! Stage 4 of the chain: what is shown, and pictures of it.
 
+use super::visible::exchanging;
 use super::{PatchLight, Pipeline};
 use crate::artifact::Sources;
 use crate::error::Error;
@@ -83,8 +84,8 @@ impl Pipeline<'_> {
             Quantity::Irradiance => {
                 let factors = factors()?;
                 Shown {
-                    value: irradiance(&factors, &all.value),
-                    direct: irradiance(&factors, &all.sources),
+                    value: irradiance(&factors, &self.of_elements(light), &all.visible),
+                    direct: irradiance(&factors, &all.sources, &all.visible),
                     reflectance: vec![[1.0; 3]; nothing.len()],
                     emission: nothing,
                     ..all
@@ -180,14 +181,16 @@ fn difference(a: &[[f32; 3]], b: &[[f32; 3]]) -> Vec<[f32; 3]> {
     pairs.map(minus).collect()
 }
 
-/// `H_i = sum_j F_ij B_j`.
-fn irradiance(factors: &FormFactors, exitance: &[[f32; 3]]) -> Vec<[f32; 3]> {
+/// `H_i = sum_j F_ij B_j`, on what is visible of patches.
+fn irradiance(factors: &FormFactors, exitance: &[[f32; 3]], visible: &[f32]) -> Vec<[f32; 3]> {
     let total: f64 = factors.areas.iter().sum();
+    let area = |(area, &share): (&f64, &f32)| area * f64::from(exchanging(share));
+    let areas: Vec<f64> = factors.areas.iter().zip(visible).map(area).collect();
     let mut result = vec![[0.0; 3]; exitance.len()];
     for c in 0..3 {
         let channel: Vec<f64> = exitance.iter().map(|of| f64::from(of[c])).collect();
         let sums = factors.exchange.product(&channel);
-        for ((result, sum), area) in result.iter_mut().zip(sums).zip(&factors.areas) {
+        for ((result, sum), area) in result.iter_mut().zip(sums).zip(&areas) {
             result[c] = (sum * total / area) as f32;
         }
     }

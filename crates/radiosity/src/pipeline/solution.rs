@@ -1,5 +1,6 @@
 //! Stage 3 of the chain: the radiosities that each light makes, and their sum.
 
+use super::visible::visible_shares;
 use super::{PatchLight, Pipeline};
 use crate::artifact::{Origin, Recipe, Sources, obtain, usable};
 use crate::error::Error;
@@ -8,7 +9,7 @@ use crate::observer::Stage;
 use crate::rows::RowSummary;
 use crate::settings;
 use radiosity_cache::{Id, Key, Miss, Store, open};
-use radiosity_form_factors::FormFactors;
+use radiosity_form_factors::{FormFactors, RowFacts};
 use radiosity_solver::{self as solver, Convergence, Energy, Method, Solution, System};
 use std::path::Path;
 use std::time::Instant;
@@ -96,12 +97,11 @@ impl Pipeline<'_> {
                 start = Instant::now();
                 let solution = self.solve(&made.form_factors)?;
                 made_from = Some(made.origin);
-                let rows = made.form_factors.rows.iter();
                 let facts = SolutionFacts {
                     report: solution.report.clone(),
                     rows: made.rows,
                     lights: self.light_names(),
-                    visible: rows.map(|row| row.visible as f32).collect(),
+                    visible: visible_shares(&made.form_factors.rows),
                 };
                 let values = [solution.lights.concat(), solution.direct.concat()].concat();
                 let write = |store: &Store| {
@@ -122,11 +122,7 @@ impl Pipeline<'_> {
             untouched
         });
         Ok(Solved {
-            light: PatchLight {
-                radiosity: self.dimmed(&solution.lights),
-                direct: self.dimmed(&solution.direct),
-                visible,
-            },
+            light: self.light_of(&solution, visible),
             energy: solution.energy(&settings::dimming(self.scene)),
             start_worth: self
                 .start
@@ -140,7 +136,7 @@ impl Pipeline<'_> {
     }
 
     /// The radiosities of the lights, as bright as the scene has them.
-    fn dimmed(&self, lights: &[Vec<[f32; 3]>]) -> Vec<[f32; 3]> {
+    pub(super) fn dimmed(&self, lights: &[Vec<[f32; 3]>]) -> Vec<[f32; 3]> {
         let mut sum = solver::relit(lights, &settings::dimming(self.scene));
         // It is dark where there are no lights.
         sum.resize(self.mesh.patches.len(), [0.0; 3]);
@@ -196,12 +192,13 @@ impl Pipeline<'_> {
 
     /// [`Pipeline::solve`] by a method of the caller's.
     pub fn solve_by(&self, method: Method, form_factors: &FormFactors) -> Result<Solution, Error> {
-        let share = |share: fn(&radiosity_form_factors::RowFacts) -> f64| -> Vec<f64> {
+        let share = |share: fn(&RowFacts) -> f64| -> Vec<f64> {
             form_factors.rows.iter().map(share).collect()
         };
         let system = System {
             exchange: &form_factors.exchange,
             areas: &form_factors.areas,
+            visible: &self.elements(&form_factors.rows),
             reflectance: &self.reflectance,
             lights: &self.lights,
             backs: &share(|row| row.backs),

@@ -14,6 +14,7 @@ use radiosity_matrix::{SymmetricMatrix, packed_len};
 struct Case {
     exchange: SymmetricMatrix,
     areas: Vec<f64>,
+    visible: Vec<f64>,
     lights: Vec<Vec<Rgb>>,
     reflectance: Vec<Rgb>,
     /// What rows miss to 1.
@@ -48,10 +49,23 @@ impl Case {
         Case {
             background: sums.map(|(sum, area)| 1.0 - sum * total / area).collect(),
             backs: vec![0.0; areas.len()],
+            visible: vec![1.0; areas.len()],
             exchange,
             areas,
             lights,
             reflectance,
+        }
+    }
+
+    /// With parts of patches hidden, which see nothing but backs.
+    fn covered(self, visible: Vec<f64>) -> Case {
+        let hidden: Vec<f64> = visible.iter().map(|visible| 1.0 - visible).collect();
+        let background = self.background.iter().zip(&hidden);
+        Case {
+            background: background.map(|(rest, hidden)| rest - hidden).collect(),
+            backs: hidden,
+            visible,
+            ..self
         }
     }
 
@@ -70,6 +84,7 @@ impl Case {
         System {
             exchange: &self.exchange,
             areas: &self.areas,
+            visible: &self.visible,
             reflectance: &self.reflectance,
             lights: &self.lights,
             backs: &self.backs,
@@ -91,14 +106,15 @@ fn random_case() -> impl Strategy<Value = Case> {
         let areas = prop::collection::vec(0.5f64..2.0, size);
         let lights = prop::collection::vec(emission, lights);
         let reflectance = prop::collection::vec([0.0f64..0.9, 0.0f64..0.9, 0.0f64..0.9], size);
-        (exchange, areas, lights, reflectance).prop_map(
-            move |(mut exchange, areas, lights, reflectance)| {
-                // S_ij <= smallest area / (n - 1), in units of the total.
+        let visible = prop::collection::vec(0.5f64..=1.0, size);
+        (exchange, areas, visible, lights, reflectance).prop_map(
+            move |(mut exchange, areas, visible, lights, reflectance)| {
+                // S_ij <= smallest visible area / (n - 1), in units of the total.
                 let total: f64 = areas.iter().sum();
-                let scale = (0.5 / total / (size - 1) as f64) as f32;
+                let scale = (0.25 / total / (size - 1) as f64) as f32;
                 exchange.iter_mut().for_each(|s| *s *= scale);
                 let exchange = SymmetricMatrix::new(size, exchange).unwrap();
-                Case::new(exchange, areas, lights, reflectance)
+                Case::new(exchange, areas, lights, reflectance).covered(visible)
             },
         )
     })
@@ -107,19 +123,16 @@ fn random_case() -> impl Strategy<Value = Case> {
 /// The irradiance at a patch, on full rows, in double precision.
 fn irradiance(case: &Case, i: usize, x: &[Rgb]) -> Rgb {
     let total: f64 = case.areas.iter().sum();
-    let factor = |j: usize| f64::from(case.exchange.get(i, j)) * total / case.areas[i];
+    let area = case.visible[i] * case.areas[i];
+    let factor = |j: usize| f64::from(case.exchange.get(i, j)) * total / area;
     std::array::from_fn(|c| (0..x.len()).map(|j| factor(j) * x[j][c]).sum())
 }
 
-/// The area-weighted L2 norm.
+/// The L2 norm, weighted by visible area.
 fn norm(case: &Case, values: &[Rgb]) -> f64 {
-    let square = |(v, area): (&Rgb, &f64)| area * v.iter().map(|c| c * c).sum::<f64>();
-    values
-        .iter()
-        .zip(&case.areas)
-        .map(square)
-        .sum::<f64>()
-        .sqrt()
+    let area = |i: usize| case.visible[i] * case.areas[i];
+    let square = |(i, v): (usize, &Rgb)| area(i) * v.iter().map(|c| c * c).sum::<f64>();
+    values.iter().enumerate().map(square).sum::<f64>().sqrt()
 }
 
 fn in_double(radiosity: &[[f32; 3]]) -> Vec<Rgb> {
