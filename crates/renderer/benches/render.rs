@@ -75,11 +75,13 @@ fn pictures(criterion: &mut Criterion) {
         let same = vec![[0.5; 3]; radiosity.len()];
         let fields = Fields {
             sources: &same,
-            reflected: &same,
             emission: &same,
             reflectance: &same,
-            radiosity: &radiosity,
+            shown: &radiosity,
+            indirect: &same,
             direct: &same,
+            direct_gain: &same,
+            indirect_gain: &same,
             visible: &vec![1.0; radiosity.len()],
         };
         group.bench_function(name, |b| {

@@ -53,10 +53,11 @@ const MOST_CUT: usize = 48;
 /// which a pixel has many.
 const POINTS: u32 = 8;
 
-/// Eight points of a patch.
+/// Eight points of patches, with their normals.
 pub(crate) struct Points<F> {
-    pub(crate) patch: usize,
+    pub(crate) patches: [u32; LANES],
     pub(crate) at: [F; 3],
+    pub(crate) normals: [F; 3],
     pub(crate) lanes: u8,
 }
 
@@ -83,7 +84,7 @@ impl<'a> DirectLight<'a> {
         }
     }
 
-    /// The irradiance at points of a patch.
+    /// The irradiance at points of patches.
     #[inline(always)]
     pub(crate) fn irradiance<S: Simd>(
         &self,
@@ -91,25 +92,37 @@ impl<'a> DirectLight<'a> {
         points: &Points<S::F64>,
         room: &mut Cutting,
     ) -> [S::F32; 3] {
-        let standings = self.of_patches[points.patch].get_or_init(|| self.stand(points.patch));
+        let [x, y, z] = &points.at;
+        let at = [x.lanes(), y.lanes(), z.lanes()];
+        let [x, y, z] = &points.normals;
+        let normals = [x.lanes(), y.lanes(), z.lanes()];
         let mut sums = [simd.splat_f32(0.0); 3];
-        for (emitter, standing) in self.emitters.iter().zip(standings) {
-            let factors = match standing {
-                Standing::Away => continue,
-                Standing::Clear => {
-                    let normal = self.mesh.patches[points.patch].normal;
-                    simd.narrow(clear_factors(simd, emitter, points, normal))
+        for (index, emitter) in self.emitters.iter().enumerate() {
+            let (mut clear, mut factors) = (0u8, [0.0; LANES]);
+            for lane in (0..LANES).filter(|lane| points.lanes >> lane & 1 != 0) {
+                let patch = points.patches[lane] as usize;
+                let standings = self.of_patches[patch].get_or_init(|| self.stand(patch));
+                let vector = |axes: &[[f64; LANES]; 3]| DVec3::from_array(axes.map(|a| a[lane]));
+                match &standings[index] {
+                    Standing::Away => {}
+                    Standing::Clear => clear |= 1 << lane,
+                    Standing::Cut(blockers) => {
+                        let point = (vector(&at), vector(&normals));
+                        factors[lane] = self.cut_factor(emitter, blockers, point, room) as f32;
+                    }
+                    Standing::Crowded => {
+                        let face = self.mesh.patches[patch].face;
+                        let point = (vector(&at), vector(&normals));
+                        factors[lane] = self.crowded_factor(emitter, face, point, room) as f32;
+                    }
                 }
-                Standing::Cut(blockers) => {
-                    let factor = |at| self.cut_factor(emitter, blockers, at, room);
-                    simd.f32(&self.factors(points, factor))
-                }
-                Standing::Crowded => {
-                    let face = self.mesh.patches[points.patch].face;
-                    let factor = |at| self.crowded_factor(emitter, face, at, room);
-                    simd.f32(&self.factors(points, factor))
-                }
-            };
+            }
+            let mut factors = simd.f32(&factors);
+            if clear != 0 {
+                factors = simd
+                    .narrow(clear_factors(simd, emitter, points))
+                    .select(clear, factors);
+            }
             for (sum, exitance) in sums.iter_mut().zip(&emitter.exitance) {
                 *sum = *sum + factors * simd.splat_f32(*exitance);
             }
@@ -169,28 +182,6 @@ impl<'a> DirectLight<'a> {
         } else {
             Standing::Cut(blockers)
         }
-    }
-
-    /// The form factors of points with their normal, one by one.
-    fn factors<F: Float<f64>>(
-        &self,
-        points: &Points<F>,
-        mut factor_of: impl FnMut((DVec3, DVec3)) -> f64,
-    ) -> [f32; LANES] {
-        let at = [
-            points.at[0].lanes(),
-            points.at[1].lanes(),
-            points.at[2].lanes(),
-        ];
-        let normal = self.mesh.patches[points.patch].normal;
-        let mut factors = [0.0; LANES];
-        for (lane, factor) in factors.iter_mut().enumerate() {
-            if points.lanes >> lane & 1 != 0 {
-                let at = DVec3::from_array(at.map(|axis| axis[lane]));
-                *factor = factor_of((at, normal)) as f32;
-            }
-        }
-        factors
     }
 
     /// To what is left of an emitter.

@@ -2,23 +2,28 @@
 
 use crate::Rgb;
 
-/// What is shown of each patch; all slices are indexed by patch. It is the radiosity, or another
-/// quantity that is made in the same way: irradiance, for one, is shown by a reflectance of 1 and an
-/// emission of 0.
+/// The light on patches, and what of it is shown; all slices are indexed by patch.
+///
+/// Radiosity is shown where `shown` is the radiosity `B` and either gain is the reflectance. Other
+/// quantities are made in the same way: irradiance has gains of 1, and no emission.
 #[derive(Clone, Copy, Debug)]
 pub struct Fields<'a> {
-    /// Radiant exitance that patches send to others, W/m^2: where direct light comes from.
+    /// Radiant exitance that patches emit, W/m^2: where direct light comes from.
     pub sources: &'a [Rgb],
-    /// What patches send to others beside, W/m^2: where indirect light comes from.
-    pub reflected: &'a [Rgb],
-    /// What is shown of the patch's own exitance.
-    pub emission: &'a [Rgb],
-    /// Diffuse reflectance, in [0, 1]: how much is shown of what arrives.
+    /// Diffuse reflectance, in [0, 1].
     pub reflectance: &'a [Rgb],
-    /// Radiosity of what can be seen of patches, W/m^2: all that is shown.
-    pub radiosity: &'a [Rgb],
-    /// The part of it that is light straight from emitters, reflected once.
-    pub direct: &'a [Rgb],
+    /// What patches reflect of light that was reflected before, W/m^2.
+    pub indirect: &'a [Rgb],
     /// The share of the patch that can be seen, in [0, 1]; of 0, neighbours take nothing over.
     pub visible: &'a [f32],
+    /// All that is shown, on what can be seen of patches.
+    pub shown: &'a [Rgb],
+    /// The part of it that comes from nowhere, as emission does.
+    pub emission: &'a [Rgb],
+    /// The part of it that comes straight from emitters.
+    pub direct: &'a [Rgb],
+    /// How much is shown of the irradiance straight from emitters.
+    pub direct_gain: &'a [Rgb],
+    /// And of the irradiance from elsewhere.
+    pub indirect_gain: &'a [Rgb],
 }

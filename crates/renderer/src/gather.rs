@@ -2,73 +2,151 @@
 //! (Reichert, "A Two-Pass Radiosity Method Driven by Lights and Viewer Position", 1992).
 //!
 //! What patches are too coarse for at the point itself, as the shadow in a corner, is there, and
-//! what they err by where one looks to is evened out. Directions have the density `cos / pi`, so
+//! what they err by where one looks to is evened out. There, too, light straight from emitters is
+//! exact, which matters where shadows end nearby. Directions have the density `cos / pi`, so
 //! irradiance is the mean of the radiosities that they meet.
 
 use crate::Rgb;
+use crate::direct::{Cutting, DirectLight, Points};
 use crate::fields::Fields;
 use crate::interpolate::{Interpolant, Places};
 use crate::render::SampleNumbers;
 use crate::samples::sobol;
 use radiosity_geometry::{DVec2, DVec3, FaceId, Mesh, Occluders, Ray};
-use radiosity_simd::LANES;
+use radiosity_simd::{Float, LANES, Simd};
 use std::f64::consts::TAU;
 
 /// Looks around.
 pub(crate) struct Gather<'a> {
     mesh: &'a Mesh,
+    reflectance: &'a [Rgb],
     occluders: Occluders,
-    reflected: Interpolant<'a>,
+    indirect: Interpolant<'a>,
     directions: u32,
+}
+
+/// What eight rays have met.
+#[derive(Default)]
+struct Met {
+    lanes: u8,
+    patches: [u32; LANES],
+    at: [[f64; LANES]; 3],
+    normals: [[f64; LANES]; 3],
+    /// What is reflected there of indirect light.
+    indirect: [[f32; LANES]; 3],
+    reflectance: [[f32; LANES]; 3],
 }
 
 impl<'a> Gather<'a> {
     /// In so many directions from each point.
     pub(crate) fn new(
         mesh: &'a Mesh,
-        fields: &Fields<'_>,
+        fields: &Fields<'a>,
         crease_angle: f64,
         directions: u32,
     ) -> Gather<'a> {
         Gather {
             mesh,
+            reflectance: fields.reflectance,
             occluders: Occluders::new(mesh),
-            reflected: Interpolant::new(mesh, (fields, crease_angle), fields.reflected),
+            indirect: Interpolant::new(mesh, (fields, crease_angle), fields.indirect),
             directions,
         }
     }
 
-    /// The irradiance at samples of a pixel, by channel.
-    pub(crate) fn irradiance(&self, places: &Places, numbers: &SampleNumbers) -> [[f32; LANES]; 3] {
+    /// The irradiance at samples of a pixel from what others reflect, by channel; `direct` lights
+    /// what is met.
+    #[inline(always)]
+    pub(crate) fn irradiance<S: Simd>(
+        &self,
+        simd: S,
+        places: &Places,
+        numbers: &SampleNumbers,
+        (direct, room): (&DirectLight<'_>, &mut Cutting),
+    ) -> [S::F32; 3] {
         let mut result = [[0.0; LANES]; 3];
         for lane in (0..LANES).filter(|lane| places.lanes >> lane & 1 != 0) {
             let at = DVec3::from_array(places.points.map(|axis| axis[lane]));
-            let irradiance = self.around((places.face, at), numbers, lane as u32);
-            for c in 0..3 {
-                result[c][lane] = irradiance[c];
+            // All samples of a pixel share one sequence.
+            let first = (numbers.first + lane as u32) * self.directions;
+            let end = first + self.directions;
+            let mut sums = [simd.splat_f32(0.0); 3];
+            for from in (first..end).step_by(LANES) {
+                let count = (end - from).min(LANES as u32);
+                let met = self.look((places.face, at), from..from + count, numbers.scramble);
+                if met.lanes != 0 {
+                    self.add(simd, &met, (direct, &mut *room), &mut sums);
+                }
+            }
+            for (result, sum) in result.iter_mut().zip(sums) {
+                result[lane] = sum.lanes().iter().sum::<f32>() / self.directions as f32;
             }
         }
-        result
+        [
+            simd.f32(&result[0]),
+            simd.f32(&result[1]),
+            simd.f32(&result[2]),
+        ]
     }
 
-    fn around(&self, (face, at): (FaceId, DVec3), numbers: &SampleNumbers, lane: u32) -> Rgb {
+    /// Looks in some directions, eight at most.
+    fn look(
+        &self,
+        (face, at): (FaceId, DVec3),
+        numbers: std::ops::Range<u32>,
+        scramble: [u32; 2],
+    ) -> Met {
         let normal = self.mesh.faces[face.index()].normal;
         let (tangent, bitangent) = normal.any_orthonormal_pair();
-        // All samples of a pixel share one sequence.
-        let first = (numbers.first + lane) * self.directions;
-        let mut sum = [0.0; 3];
-        for number in first..first + self.directions {
-            let [x, y, z] = raised(sobol(number, numbers.scramble));
+        let mut met = Met::default();
+        for (lane, number) in numbers.enumerate() {
+            let [x, y, z] = raised(sobol(number, scramble));
             let ray = Ray::new(at, x * tangent + y * bitangent + z * normal);
             let hit = self
                 .occluders
                 .closest_hit(&ray, 0.0, f64::INFINITY, Some(face));
-            if let Some(hit) = hit.filter(|hit| hit.front) {
-                let met = self.reflected.at_point(hit.face, ray.at(hit.t));
-                (0..3).for_each(|c| sum[c] += met[c]);
+            let Some(hit) = hit.filter(|hit| hit.front) else {
+                continue;
+            };
+            let there = self.mesh.locate(hit.face, ray.at(hit.t));
+            met.lanes |= 1 << lane;
+            met.patches[lane] = there.patch as u32;
+            let point = ray.at(hit.t).to_array();
+            let normal = self.mesh.faces[hit.face.index()].normal.to_array();
+            let indirect = self.indirect.at_location(&there);
+            for axis in 0..3 {
+                met.at[axis][lane] = point[axis];
+                met.normals[axis][lane] = normal[axis];
+                met.indirect[axis][lane] = indirect[axis];
+                met.reflectance[axis][lane] = self.reflectance[there.patch][axis];
             }
         }
-        sum.map(|sum| sum / self.directions as f32)
+        met
+    }
+
+    /// Adds what is reflected where rays have met something.
+    #[inline(always)]
+    fn add<S: Simd>(
+        &self,
+        simd: S,
+        met: &Met,
+        (direct, room): (&DirectLight<'_>, &mut Cutting),
+        sums: &mut [S::F32; 3],
+    ) {
+        let [x, y, z] = &met.at;
+        let [u, v, w] = &met.normals;
+        let points = Points {
+            patches: met.patches,
+            at: [simd.f64(x), simd.f64(y), simd.f64(z)],
+            normals: [simd.f64(u), simd.f64(v), simd.f64(w)],
+            lanes: met.lanes,
+        };
+        let irradiance = direct.irradiance(simd, &points, room);
+        for c in 0..3 {
+            let reflected = irradiance[c] * simd.f32(&met.reflectance[c]);
+            // Lanes that have met nothing are 0.
+            sums[c] = sums[c] + reflected + simd.f32(&met.indirect[c]);
+        }
     }
 }
 

@@ -1,11 +1,11 @@
 //! The radiosity at any point, from the patches' values.
 
-use crate::Rgb;
 use crate::bicubic::{Piece, pieces};
 use crate::exposed::{continued, is_exposed};
 use crate::fields::Fields;
 use crate::vertex::VertexValues;
-use radiosity_geometry::{DVec2, DVec3, Face, FaceId, Grid, Mesh};
+use crate::{Rgb, add_scaled};
+use radiosity_geometry::{DVec2, Face, FaceId, Grid, Location, Mesh};
 use radiosity_simd::{Float, LANES, Simd};
 
 /// Looks up radiosities at points.
@@ -30,7 +30,7 @@ pub(crate) struct Places {
 
 /// Points in a polynomial or a patch each, by its number, and their coordinates there.
 pub(crate) struct Local {
-    number: [u32; LANES],
+    pub(crate) number: [u32; LANES],
     at: [[f32; LANES]; 2],
 }
 
@@ -104,16 +104,17 @@ impl<'a> Interpolant<'a> {
         }
     }
 
-    /// The smooth value at a point of a face that has patches.
-    pub(crate) fn at_point(&self, id: FaceId, point: DVec3) -> Rgb {
-        let face = &self.mesh.faces[id.index()];
-        let (cell, at) = face.grid.cell_at(face.coordinates(point));
-        let patch = face.first_patch + cell;
-        let value = match self.grids[id.index()] {
-            Some(first) => value_of(&self.pieces[first as usize + cell], at),
-            None => self
-                .vertices
-                .at(&self.mesh.patches[patch].polygon, patch, at),
+    /// The smooth value at one place.
+    pub(crate) fn at_location(&self, there: &Location) -> Rgb {
+        let value = match self.grids[there.face.index()] {
+            Some(first) => {
+                let cell = there.patch - self.mesh.faces[there.face.index()].first_patch;
+                value_of(&self.pieces[first as usize + cell], there.on_patch)
+            }
+            None => {
+                let polygon = &self.mesh.patches[there.patch].polygon;
+                self.vertices.at(polygon, there.patch, there.on_patch)
+            }
         };
         value.map(|channel| channel.max(0.0))
     }
@@ -150,14 +151,13 @@ impl<'a> Interpolant<'a> {
 
 /// A piece at one place.
 fn value_of(piece: &Piece, at: DVec2) -> Rgb {
-    let (s, t) = (at.x as f32, at.y as f32);
+    let powers = |x: f32| [1.0, x, x * x, x * x * x];
+    let (s, t) = (powers(at.x as f32), powers(at.y as f32));
     let mut value = [0.0; 3];
-    for coefficients in piece.chunks_exact(4).rev() {
-        let row = |c: usize| {
-            let [a, b, c, d] = [0, 1, 2, 3].map(|j: usize| coefficients[j][c]);
-            ((d * t + c) * t + b) * t + a
-        };
-        value = std::array::from_fn(|c| value[c] * s + row(c));
+    for (row, s) in piece.as_chunks::<4>().0.iter().zip(s) {
+        for (coefficient, t) in row.iter().zip(t) {
+            add_scaled(&mut value, s * t, *coefficient);
+        }
     }
     value
 }

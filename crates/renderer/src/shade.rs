@@ -11,6 +11,7 @@ use radiosity_simd::{Float, Simd};
 
 /// Shows the light of patches at places of their faces.
 pub(crate) struct Shader<'a> {
+    mesh: &'a Mesh,
     fields: Fields<'a>,
     shadings: Vec<Shading>,
     /// All light.
@@ -39,11 +40,11 @@ impl<'a> Shader<'a> {
     ) -> Shader<'a> {
         let has = |shading| shadings.contains(&shading);
         let with = (fields, params.crease_angle);
-        let smooth = || Interpolant::new(mesh, with, fields.radiosity);
+        let smooth = || Interpolant::new(mesh, with, fields.shown);
         let indirect = || {
             let patches = 0..mesh.patches.len();
             let rest = |k: usize| -> Rgb {
-                let (all, direct) = (fields.radiosity[k], fields.direct[k]);
+                let (all, direct) = (fields.shown[k], fields.direct[k]);
                 std::array::from_fn(|c| all[c] - fields.emission[k][c] - direct[c])
             };
             let rest: Vec<Rgb> = patches.map(rest).collect();
@@ -52,6 +53,7 @@ impl<'a> Shader<'a> {
         let gather = || Gather::new(mesh, fields, params.crease_angle, params.directions);
         let is_exact = has(Shading::Exact) || has(Shading::Gathered);
         Shader {
+            mesh,
             fields: *fields,
             shadings: shadings.to_vec(),
             smooth: has(Shading::Smooth).then(smooth),
@@ -104,7 +106,7 @@ impl<'a> Shader<'a> {
         while rest != 0 {
             let (patch, same) = local.first_of(rest);
             for (c, value) in values.iter_mut().enumerate() {
-                let radiosity = simd.splat_f32(self.fields.radiosity[patch][c]);
+                let radiosity = simd.splat_f32(self.fields.shown[patch][c]);
                 *value = radiosity.select(same, *value);
             }
             rest &= !same;
@@ -121,11 +123,9 @@ impl<'a> Shader<'a> {
     ) -> [S::F32; 3] {
         let nothing = [simd.splat_f32(0.0); 3];
         let mut arriving = nothing;
-        if let Some(gather) = &self.gather {
-            let irradiance = gather.irradiance(places, &room.numbers);
-            for (arriving, channel) in arriving.iter_mut().zip(&irradiance) {
-                *arriving = simd.f32(channel);
-            }
+        if let (Some(gather), Some(direct)) = (&self.gather, &self.direct) {
+            let with = (direct, &mut room.cutting);
+            arriving = gather.irradiance(simd, places, &room.numbers, with);
         }
         self.with_direct(simd, [nothing, arriving], (places, local), room)
     }
@@ -145,20 +145,23 @@ impl<'a> Shader<'a> {
             return values;
         };
         let [x, y, z] = &places.points;
+        let normal = self.mesh.faces[places.face.index()].normal;
+        let points = Points {
+            patches: local.number,
+            at: [simd.f64(x), simd.f64(y), simd.f64(z)],
+            normals: normal.to_array().map(|axis| simd.splat_f64(axis)),
+            lanes: places.lanes,
+        };
+        let irradiance = direct.irradiance(simd, &points, &mut room.cutting);
+        let fields = &self.fields;
         let mut rest = places.lanes;
         while rest != 0 {
             let (patch, same) = local.first_of(rest);
-            let points = Points {
-                patch,
-                at: [simd.f64(x), simd.f64(y), simd.f64(z)],
-                lanes: same,
-            };
-            let irradiance = direct.irradiance(simd, &points, &mut room.cutting);
-            let (emission, reflectance) =
-                (self.fields.emission[patch], self.fields.reflectance[patch]);
             for c in 0..3 {
-                let reflected = (irradiance[c] + arriving[c]) * simd.splat_f32(reflectance[c]);
-                let sum = values[c] + reflected + simd.splat_f32(emission[c]);
+                let direct = irradiance[c] * simd.splat_f32(fields.direct_gain[patch][c]);
+                let indirect = arriving[c] * simd.splat_f32(fields.indirect_gain[patch][c]);
+                let emission = simd.splat_f32(fields.emission[patch][c]);
+                let sum = values[c] + direct + indirect + emission;
                 values[c] = sum.select(same, values[c]);
             }
             rest &= !same;

@@ -54,12 +54,14 @@ fn shown(mesh: &Mesh, at: DVec3, from: DVec3) -> f64 {
     let dark = vec![[0.0; 3]; patches];
     let fields = Fields {
         sources: &emission,
-        reflected: &emission,
         emission: &emission,
         reflectance: &reflectance,
         // Nothing is reflected more than once.
-        radiosity: &emission,
+        shown: &emission,
+        indirect: &dark,
         direct: &dark,
+        direct_gain: &reflectance,
+        indirect_gain: &reflectance,
         visible: &vec![1.0; patches],
     };
     let eye = at + 0.01 * from.normalize();

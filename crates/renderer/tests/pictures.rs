@@ -48,11 +48,13 @@ fn with_fields<T>(radiosity: &[[f32; 3]], f: impl FnOnce(&Fields<'_>) -> T) -> T
     let same = vec![[0.5; 3]; radiosity.len()];
     f(&Fields {
         sources: &same,
-        reflected: &same,
         emission: &same,
         reflectance: &same,
-        radiosity,
+        shown: radiosity,
+        indirect: &same,
         direct: &same,
+        direct_gain: &same,
+        indirect_gain: &same,
         visible: &vec![1.0; radiosity.len()],
     })
 }
@@ -265,11 +267,13 @@ fn hidden_parts_do_not_darken_what_is_seen() {
         let dark = vec![[0.0; 3]; radiosity.len()];
         let fields = Fields {
             sources: &dark,
-            reflected: &dark,
             emission: &dark,
             reflectance: &dark,
-            radiosity: &radiosity,
+            shown: &radiosity,
+            indirect: &dark,
             direct: &dark,
+            direct_gain: &dark,
+            indirect_gain: &dark,
             visible: &visible,
         };
         let [_, smooth] = view(&mesh, &fields, DVec3::new(0.33, 0.0, 0.0), 0.28, 20);
@@ -290,11 +294,13 @@ fn materials_and_creases_keep_their_edges() {
         .collect();
     let fields = Fields {
         sources: &vec![[0.0; 3]; 128],
-        reflected: &vec![[0.0; 3]; 128],
         emission: &vec![[0.0; 3]; 128],
         reflectance: &reflectance,
-        radiosity: &radiosity,
+        shown: &radiosity,
+        indirect: &radiosity,
         direct: &radiosity,
+        direct_gain: &reflectance,
+        indirect_gain: &reflectance,
         visible: &[1.0; 128],
     };
     let [a, _, c, _] = square();

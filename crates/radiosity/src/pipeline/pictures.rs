@@ -28,16 +28,18 @@ pub enum Quantity {
     FactorsFrom(usize),
 }
 
-/// A quantity on all patches.
+/// A quantity on all patches, and the light that makes it; see [`Fields`].
 #[derive(Clone, Debug)]
 pub struct Shown {
     sources: Vec<[f32; 3]>,
-    reflected: Vec<[f32; 3]>,
-    emission: Vec<[f32; 3]>,
     reflectance: Vec<[f32; 3]>,
-    value: Vec<[f32; 3]>,
-    direct: Vec<[f32; 3]>,
+    indirect: Vec<[f32; 3]>,
     visible: Vec<f32>,
+    value: Vec<[f32; 3]>,
+    emission: Vec<[f32; 3]>,
+    direct: Vec<[f32; 3]>,
+    direct_gain: Vec<[f32; 3]>,
+    indirect_gain: Vec<[f32; 3]>,
 }
 
 impl Pipeline<'_> {
@@ -53,32 +55,21 @@ impl Pipeline<'_> {
     /// possible.
     pub fn shown(&self, light: &PatchLight, quantity: Quantity) -> Result<Shown, Error> {
         let factors = || Ok::<_, Error>(self.form_factors(Sources::Cached)?.form_factors);
-        let emission = self.dimmed_emission();
-        let nothing = vec![[0.0; 3]; emission.len()];
-        let to_f32 = |rgb: &[f64; 3]| rgb.map(|channel| channel as f32);
-        let reflectance: Vec<[f32; 3]> = self.reflectance.iter().map(to_f32).collect();
-        let all = Shown {
-            sources: emission.clone(),
-            reflected: difference(&light.radiosity, &emission),
-            emission,
-            reflectance,
-            value: light.radiosity.clone(),
-            direct: light.direct.clone(),
-            visible: light.visible.clone(),
-        };
-        let indirect = || difference(&all.reflected, &all.direct);
+        let all = self.all_light(light);
+        let patches = all.value.len();
+        let nothing = || vec![[0.0; 3]; patches];
         Ok(match quantity {
             Quantity::Radiosity => all,
             Quantity::Direct => Shown {
-                value: difference(&all.value, &indirect()),
-                reflected: nothing,
+                value: difference(&all.value, &all.indirect),
+                indirect_gain: nothing(),
                 ..all
             },
             Quantity::Indirect => Shown {
-                value: indirect(),
-                sources: nothing.clone(),
-                emission: nothing.clone(),
-                direct: nothing,
+                value: all.indirect.clone(),
+                emission: nothing(),
+                direct: nothing(),
+                direct_gain: nothing(),
                 ..all
             },
             Quantity::Irradiance => {
@@ -86,8 +77,9 @@ impl Pipeline<'_> {
                 Shown {
                     value: irradiance(&factors, &self.of_elements(light), &all.visible),
                     direct: irradiance(&factors, &all.sources, &all.visible),
-                    reflectance: vec![[1.0; 3]; nothing.len()],
-                    emission: nothing,
+                    emission: nothing(),
+                    direct_gain: vec![[1.0; 3]; patches],
+                    indirect_gain: vec![[1.0; 3]; patches],
                     ..all
                 }
             }
@@ -99,6 +91,25 @@ impl Pipeline<'_> {
             }
             Quantity::FactorsFrom(patch) => table(factors()?.row(patch)),
         })
+    }
+
+    /// What leaves patches.
+    fn all_light(&self, light: &PatchLight) -> Shown {
+        let emission = self.dimmed_emission();
+        let to_f32 = |rgb: &[f64; 3]| rgb.map(|channel| channel as f32);
+        let reflectance: Vec<[f32; 3]> = self.reflectance.iter().map(to_f32).collect();
+        let reflected = difference(&light.radiosity, &emission);
+        Shown {
+            sources: emission.clone(),
+            indirect: difference(&reflected, &light.direct),
+            visible: light.visible.clone(),
+            value: light.radiosity.clone(),
+            emission,
+            direct: light.direct.clone(),
+            direct_gain: reflectance.clone(),
+            indirect_gain: reflectance.clone(),
+            reflectance,
+        }
     }
 
     /// Makes a quantity ready to be looked at from anywhere, by each of some shadings.
@@ -151,12 +162,14 @@ impl Shown {
     fn fields(&self) -> Fields<'_> {
         Fields {
             sources: &self.sources,
-            reflected: &self.reflected,
-            emission: &self.emission,
             reflectance: &self.reflectance,
-            radiosity: &self.value,
-            direct: &self.direct,
+            indirect: &self.indirect,
             visible: &self.visible,
+            shown: &self.value,
+            emission: &self.emission,
+            direct: &self.direct,
+            direct_gain: &self.direct_gain,
+            indirect_gain: &self.indirect_gain,
         }
     }
 }
@@ -166,12 +179,14 @@ fn table(values: Vec<f64>) -> Shown {
     let nothing = vec![[0.0; 3]; values.len()];
     Shown {
         sources: nothing.clone(),
-        reflected: nothing.clone(),
-        emission: nothing.clone(),
         reflectance: nothing.clone(),
+        indirect: nothing.clone(),
         visible: vec![1.0; values.len()],
         value: values.into_iter().map(|value| [value as f32; 3]).collect(),
-        direct: nothing,
+        emission: nothing.clone(),
+        direct: nothing.clone(),
+        direct_gain: nothing.clone(),
+        indirect_gain: nothing,
     }
 }
 

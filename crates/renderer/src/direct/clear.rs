@@ -11,7 +11,6 @@ pub(super) fn clear_factors<S: Simd>(
     simd: S,
     emitter: &Emitter,
     points: &Points<S::F64>,
-    normal: DVec3,
 ) -> S::F64 {
     let corners = emitter.polygon.corners();
     let mut sum = simd.splat_f64(0.0);
@@ -23,9 +22,8 @@ pub(super) fn clear_factors<S: Simd>(
             from[2] * to[0] - from[0] * to[2],
             from[0] * to[1] - from[1] * to[0],
         ];
-        let normal = normal.to_array().map(|axis| simd.splat_f64(axis));
         let length = dot(&cross, &cross).sqrt();
-        sum = sum + angle(simd, length, dot(&from, &to)) / length * dot(&cross, &normal);
+        sum = sum + angle(simd, length, dot(&from, &to)) / length * dot(&cross, &points.normals);
         from = to;
     }
     sum * simd.splat_f64(-1.0 / TAU)
