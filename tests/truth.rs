@@ -42,7 +42,8 @@ fn the_course_is_reproduced() {
 }
 
 /// What patches of constant radiosity cost is all that is left: 1.24 % and 0.58 % with factors that are
-/// nearly exact, and 0.39 % over the larger cells.
+/// nearly exact where whole patches are the elements, and 0.39 % over the larger cells; less where what is
+/// visible of them is.
 #[test]
 fn accurate_factors_leave_the_error_of_the_patches() {
     let mut scene = shipped("cornell");
@@ -59,9 +60,9 @@ fn accurate_factors_leave_the_error_of_the_patches() {
     });
     let coarse = tables[1].coarsened(6).unwrap();
     for (found, n, most, bias) in [
-        (&tables[0], 12, 1.3, 0.45),
-        (&tables[1], 24, 0.65, 0.25),
-        (&coarse, 4, 0.45, 0.25),
+        (&tables[0], 12, 1.25, 0.35),
+        (&tables[1], 24, 0.5, 0.15),
+        (&coarse, 4, 0.4, 0.15),
     ] {
         let errors = table_errors(&scene, found, n);
         let rmse = errors.rmse_percent_without_noise();
@@ -85,8 +86,8 @@ fn pictures_are_near_the_truth() {
     scene.form_factors.tolerance = 2e-3;
     scene.image.filter = PixelFilter::Box;
     for (n, most_smooth, most_exact, bias) in [
-        (12, 4.7, 2.15, 0.55),
-        (24, 2.0, 1.0, 0.25),
+        (12, 4.6, 2.1, 0.35),
+        (24, 2.0, 1.0, 0.15),
         (48, 1.15, 0.58, 0.12),
     ] {
         scene.divisions = Divisions::uniform(n);
@@ -105,6 +106,22 @@ fn pictures_are_near_the_truth() {
         );
         assert!(found.abs() <= bias, "{n}: {errors:?}");
     }
+}
+
+/// Gathering at samples of 12 x 12 patches leaves a part of what patches do to the bias, and the noise of 256
+/// directions a pixel, which is 0.6 %; `bench display` takes more of them.
+#[test]
+fn gathered_light_is_nearer() {
+    let mut scene = shipped("cornell");
+    scene.form_factors.mode = Mode::Accurate;
+    scene.image.filter = PixelFilter::Box;
+    let pipeline = pipeline(&scene);
+    let light = solve(&pipeline).light;
+    let pictures = pipeline.pictures(&light, &[Shading::Gathered]).unwrap();
+    let errors = picture_errors(&pictures[0], PixelFilter::Box, "0-2");
+    let (rmse, bias) = (errors.rmse_percent, errors.bias_percent);
+    println!("gathered: {rmse:.3} %, bias {bias:+.3} %");
+    assert!(rmse <= 0.9 && bias.abs() <= 0.35, "{errors:?}");
 }
 
 /// The same surfaces as triangles give the same picture. Shading triangles must not cost

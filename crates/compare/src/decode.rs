@@ -1,6 +1,8 @@
-//! Pictures from files' bytes: EXR, PFM, PPM and PNG, as linear radiance.
+//! Pictures from files' bytes: EXR, HDR, PFM, PPM and PNG, as linear radiance.
 
 use crate::portable;
+use image::codecs::hdr::HdrDecoder;
+use image::{ImageDecoder, ImageError};
 use radiosity_renderer::{Image, Transfer};
 use std::io::Cursor;
 
@@ -29,7 +31,7 @@ pub struct Decoded {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum DecodeError {
     /// None of the known formats.
-    #[error("is none of the formats that can be read: OpenEXR, PFM, PPM, PNG")]
+    #[error("is none of the formats that can be read: OpenEXR, Radiance HDR, PFM, PPM, PNG")]
     Unknown,
     /// OpenEXR, which this build does not read.
     #[error("is an OpenEXR file, which this build does not read: build with the feature `openexr`")]
@@ -53,7 +55,7 @@ impl Screen {
 }
 
 /// Reads a picture whose format its first bytes tell. Levels become radiance as `screen` says;
-/// OpenEXR and PFM hold radiance already.
+/// OpenEXR, HDR and PFM hold radiance already.
 pub fn decode_picture(bytes: &[u8], screen: &Screen) -> Result<Decoded, DecodeError> {
     const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
     const EXR: &[u8] = b"\x76\x2f\x31\x01";
@@ -68,6 +70,8 @@ pub fn decode_picture(bytes: &[u8], screen: &Screen) -> Result<Decoded, DecodeEr
         return exr_radiance(bytes).map(linear);
         #[cfg(not(feature = "openexr"))]
         Err(DecodeError::LeftOut)
+    } else if bytes.starts_with(b"#?RADIANCE") {
+        hdr_radiance(bytes).map(linear)
     } else if bytes.starts_with(b"PF") || bytes.starts_with(b"Pf") {
         portable::float_map(bytes).map(linear)
     } else if bytes.starts_with(b"P3") || bytes.starts_with(b"P6") {
@@ -170,6 +174,26 @@ fn exr_radiance(bytes: &[u8]) -> Result<Image, DecodeError> {
         .from_buffered(Cursor::new(bytes))
         .map_err(broken)?;
     Ok(image.layer_data.channel_data.pixels)
+}
+
+fn hdr_radiance(bytes: &[u8]) -> Result<Image, DecodeError> {
+    let broken = |error: ImageError| DecodeError::Broken {
+        format: "HDR",
+        problem: error.to_string(),
+    };
+    let decoder = HdrDecoder::new(Cursor::new(bytes)).map_err(broken)?;
+    let (width, height) = decoder.dimensions();
+    check_size("HDR", width.into(), height.into())?;
+    let mut data = vec![0; 12 * width as usize * height as usize];
+    decoder.read_image(&mut data).map_err(broken)?;
+    let pixels = data.as_chunks::<12>().0.iter();
+    let channel =
+        |bytes: &[u8; 12], c: usize| f32::from_ne_bytes([0, 1, 2, 3].map(|k| bytes[4 * c + k]));
+    Ok(Image {
+        width,
+        height,
+        pixels: pixels.map(|p| [0, 1, 2].map(|c| channel(p, c))).collect(),
+    })
 }
 
 /// Larger pictures are refused before memory is taken for them.

@@ -5,7 +5,7 @@ use radiosity_compare::{
     Decoded, PictureError, Regions, Screen, compare_pictures, decode_picture, decode_regions,
     difference_picture,
 };
-use radiosity_renderer::{Image, PictureFormat, ToneMap, Transfer, encode, encode_pfm};
+use radiosity_renderer::{Image, PictureFormat, ToneMap, Transfer, encode, encode_hdr, encode_pfm};
 
 const SCREEN: Screen = Screen {
     exposure: 4.0,
@@ -215,6 +215,8 @@ proptest! {
     fn any_bytes_are_read_or_refused(
         magic in prop::sample::select(vec![
             "P3 ", "P6 ", "PF ", "P6 2 2 255\n", "PF 1 1 -1\n", "P3 1 1 9 ",
+            "#?RADIANCE\n", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 9 +X 9\n",
+            "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n",
         ]),
         rest in prop::collection::vec(any::<u8>(), 0..64),
     ) {
@@ -226,11 +228,15 @@ proptest! {
     fn damage_is_survived(damage in prop::collection::vec((any::<u16>(), any::<u8>()), 1..4)) {
         let picture = ToneMap::clamped(1.0, Transfer::Gamma(2.0)).apply(&ramp());
         let mut png = encode(&picture, PictureFormat::Png(Transfer::Gamma(2.0)), &[]);
+        let mut hdr = encode_hdr(&ramp(), &[("Unit", "W/m^2/sr".to_owned())]);
         for (at, byte) in damage {
-            let length = png.len();
-            png[usize::from(at) % length] = byte;
+            for bytes in [&mut png, &mut hdr] {
+                let length = bytes.len();
+                bytes[usize::from(at) % length] = byte;
+            }
         }
         let _ = decode_picture(&png, &SCREEN);
+        let _ = decode_picture(&hdr, &SCREEN);
         let _ = decode_regions(&png);
     }
 }

@@ -44,6 +44,35 @@ fn error_of(from: &str, to: &str) -> String {
     parse_text(&GOOD.replacen(from, to, 1)).expect_err(to)
 }
 
+/// Views keep the order of the file.
+#[test]
+fn views_have_cameras_of_their_own() {
+    let view = |name: &str| {
+        format!(
+            "[[views]]\nname = \"{name}\"\ncamera = {{ position = [0, 5, 0], look_at = [0, 0, 0], \
+             up = [0, 0, 1], vertical_fov = 40 }}\n"
+        )
+    };
+    let with = |names: &[&str]| {
+        let views: String = names.iter().map(|name| view(name)).collect();
+        parse_text(&format!("{GOOD}\n{views}"))
+    };
+    let scene = with(&["top", "side_2"]).unwrap();
+    let names: Vec<&str> = scene.views.iter().map(|view| view.name.as_str()).collect();
+    assert_eq!(names, ["top", "side_2"]);
+    assert_eq!(scene.views[0].camera.position().y, 5.0);
+    for (names, what) in [
+        (&["top", "top"][..], "another view has this name already"),
+        (&["all"], "this stands for all views"),
+        (&["camera"], "this stands for all views"),
+        (&["a/b"], "files are named after it"),
+        (&[""], "files are named after it"),
+    ] {
+        let error = with(names).expect_err(what);
+        assert!(error.contains(what), "{error}");
+    }
+}
+
 #[test]
 fn a_scene_means_what_it_says() {
     let scene = parse_text(GOOD).unwrap();
@@ -57,7 +86,7 @@ fn a_scene_means_what_it_says() {
     assert_eq!(scene.material(SurfaceId(0), 0).reflectance, [0.75; 3]);
     assert_eq!(scene.material(SurfaceId(1), 0).emission, [12.0; 3]);
     assert!(matches!(scene.geometry[1].shape, Shape::Triangle(_)));
-    assert!(scene.camera.is_some());
+    assert!(scene.camera.is_some() && scene.views.is_empty());
     assert_eq!(scene.surfaces[1].group, "wing", "a group of its own");
     let grouped = GOOD.replace("name = \"wing\"", "name = \"wing\"\ngroup = \"floor\"");
     assert_eq!(parse_text(&grouped).unwrap().surfaces[1].group, "floor");

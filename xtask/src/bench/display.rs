@@ -22,9 +22,14 @@ const GOOD: u32 = 24;
 /// Passes of the path tracer, of four samples a pixel, that tell its speed.
 const PASSES: u32 = 4;
 
+/// What light is gathered from, in how many directions from each sample.
+const COURSE: u32 = 12;
+const DIRECTIONS: u32 = 64;
+
 const TIMES_THE_COURSE: f64 = 25.0;
 const WHOLE_RUN: f64 = 110.0;
 const PERCENT: f64 = 1.0;
+const GATHERED_PERCENT: f64 = 0.6;
 const VIEW_SECONDS: f64 = 0.5;
 const COLD_SECONDS: f64 = 1.2;
 const TIMES_THE_TRACER: f64 = 50.0;
@@ -45,6 +50,7 @@ pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
     }
     let good = errors.iter().find(|(divisions, _)| *divisions == GOOD);
     let view = good.map(|(_, view)| view).expect("it is one of the sizes");
+    figures.extend(gathered_view(&scene, &truth)?);
     figures.extend(beside_the_tracer(&scene, &truth, view)?);
     super::show(&figures, json);
     Ok(())
@@ -187,13 +193,45 @@ struct View {
     error: f64,
 }
 
-/// Exact direct light, from nearly exact form factors.
-fn exact_view(scene: &Scene, divisions: u32, truth: &Truth) -> Result<(View, Vec<Figure>), Error> {
+fn nearly_exact(scene: &Scene, divisions: u32) -> Scene {
     let mut scene = scene.clone();
     scene.divisions = Divisions::uniform(divisions);
     scene.form_factors.mode = Mode::Accurate;
     scene.form_factors.tolerance = TOLERANCE;
     scene.image.filter = PixelFilter::Box;
+    scene
+}
+
+/// All light gathered at samples, from the course's patches.
+fn gathered_view(scene: &Scene, truth: &Truth) -> Result<Vec<Figure>, Error> {
+    let mut scene = nearly_exact(scene, COURSE);
+    scene.image.directions = DIRECTIONS;
+    let pipeline = Pipeline::new(&scene, None, &Silent)?;
+    let light = pipeline.solution(Sources::Cached)?.light;
+    let start = Instant::now();
+    let pictures = pipeline.pictures(&light, &[Shading::Gathered])?;
+    let seconds = start.elapsed().as_secs_f64();
+    let error = truth.error(&pictures[0], &scene)?;
+    let most = Some(Target::Between(0.0, GATHERED_PERCENT));
+    Ok(vec![
+        figure(
+            "gathered.12.error",
+            error,
+            "% away from edges, 64 directions",
+            most,
+        ),
+        figure(
+            "gathered.12.seconds",
+            seconds,
+            "s for a further view, all threads",
+            None,
+        ),
+    ])
+}
+
+/// Exact direct light, from nearly exact form factors.
+fn exact_view(scene: &Scene, divisions: u32, truth: &Truth) -> Result<(View, Vec<Figure>), Error> {
+    let scene = nearly_exact(scene, divisions);
     let start = Instant::now();
     let pipeline = Pipeline::new(&scene, None, &Silent)?;
     let light = pipeline.solution(Sources::Cached)?.light;

@@ -55,6 +55,7 @@ pub struct SceneArgs {
 
 /// How form factors are estimated, and where artifacts are kept.
 #[derive(Debug, Args)]
+#[command(next_help_heading = "Form factors")]
 pub struct EstimateArgs {
     /// Estimator of the form factors
     #[arg(long, value_enum)]
@@ -87,6 +88,7 @@ pub struct EstimateArgs {
 
 /// Where artifacts are kept.
 #[derive(Debug, Args)]
+#[command(next_help_heading = "Run")]
 pub struct CacheArgs {
     /// Folder of cached form factors and solutions [default: cache in a checkout, else the
     /// platform's cache folder]
@@ -109,19 +111,25 @@ pub struct FormFactorsCommand {
     #[command(flatten)]
     pub estimate: EstimateArgs,
     /// Compute them even if they are cached
-    #[arg(long)]
+    #[arg(help_heading = "Results", long)]
     pub recompute: bool,
     /// Write the matrix F[i, j], from row i to column j: a path that ends in .npy (float32) or .csv.
     /// What the rows are, with areas, sums and errors, is written beside it as NAME.rows.csv
-    #[arg(long, value_name = "FILE", value_parser = parse_matrix_path)]
+    #[arg(help_heading = "Results", long, value_name = "FILE", value_parser = parse_matrix_path)]
     pub export: Option<PathBuf>,
     /// What the rows of the exported matrix are; by surface or group, .csv has lines of
     /// from,to,F,error
-    #[arg(long, value_enum, default_value = "patch", requires = "export")]
+    #[arg(
+        help_heading = "Results",
+        long,
+        value_enum,
+        default_value = "patch",
+        requires = "export"
+    )]
     pub by: ByArg,
     /// Write only entries of at least X, as lines of row,column,F or from,to,F,error; the sum of the
     /// others is a column of NAME.rows.csv
-    #[arg(long, value_name = "X", value_parser = parse_threshold, allow_negative_numbers = true, requires = "export")]
+    #[arg(help_heading = "Results", long, value_name = "X", value_parser = parse_threshold, allow_negative_numbers = true, requires = "export")]
     pub sparse: Option<f64>,
 }
 
@@ -142,10 +150,10 @@ pub struct SolveCommand {
     pub lights: LightArgs,
     /// Write the radiosities of all patches: surface,ia,ib,B_r,B_g,B_b in W/m^2; the path ends
     /// in .csv
-    #[arg(long, value_name = "FILE.csv", value_parser = parse_csv_path)]
+    #[arg(help_heading = "Results", long, value_name = "FILE.csv", value_parser = parse_csv_path)]
     pub export: Option<PathBuf>,
     /// Solve by every method, and draw how the residual falls with each pass; the path ends in .svg
-    #[arg(long, value_name = "FILE.svg", value_parser = parse_svg_path, conflicts_with_all = ["no_cache", "preview"])]
+    #[arg(help_heading = "Results", long, value_name = "FILE.svg", value_parser = parse_svg_path, conflicts_with_all = ["no_cache", "preview"])]
     pub plot: Option<PathBuf>,
 }
 
@@ -203,20 +211,20 @@ pub struct ReferenceCommand {
     #[command(flatten)]
     pub image: ImageArgs,
     /// Folder for the results [default: out]
-    #[arg(long, short, value_name = "DIR")]
+    #[arg(help_heading = "Results", long, short, value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// Threads to use [default: all]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    #[arg(help_heading = "Run", long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub threads: Option<u32>,
     /// Print one JSON object on standard output, and everything else on standard error
-    #[arg(long)]
+    #[arg(help_heading = "Run", long)]
     pub json: bool,
 }
 
 /// `compare`.
 #[derive(Debug, Args)]
 pub struct CompareCommand {
-    /// A picture (.exr, .pfm, .ppm, .png) or a table of radiosities (.csv)
+    /// A picture (.exr, .hdr, .pfm, .ppm, .png) or a table of radiosities (.csv)
     pub found: PathBuf,
     /// What it should be
     pub reference: PathBuf,

@@ -59,6 +59,19 @@ pub enum BacksArg {
     Transparent,
 }
 
+/// [`Shading`](radiosity_renderer::Shading) on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
+pub enum ShadingArg {
+    /// Every patch in its own radiance
+    Constant,
+    /// Radiance interpolated between patches
+    Smooth,
+    /// Direct light at every sample, the rest interpolated: --direct exact
+    Exact,
+    /// All light at every sample: --gather
+    Gathered,
+}
+
 /// How direct light is shown, on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum DirectArg {

@@ -89,7 +89,7 @@ impl Series<'_> {
     /// Takes and saves the pictures of a look, from everywhere.
     fn add(&mut self, look: &Look, light: &PatchLight, shots: &[Shot]) -> Result<(), Error> {
         let display = &self.args.display;
-        let shadings = look.shadings(display.shadings());
+        let shadings = look.shadings(&display.shadings());
         let shown = self.pipeline.shown(light, look.quantity)?;
         let renderer = self.pipeline.renderer(&shown, &shadings);
         let is_film = display.views.is_film();

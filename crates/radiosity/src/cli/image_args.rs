@@ -1,7 +1,7 @@
 //! What pictures are like, on the command line.
 
 use super::apply::set;
-use super::choices::{DirectArg, FilterArg, FormatArg, ToneArg};
+use super::choices::{DirectArg, FilterArg, FormatArg, ShadingArg, ToneArg};
 use super::parse::{parse_angle, parse_exposure, parse_gamma, parse_size};
 use super::show_args::ShowArgs;
 use super::view_args::ViewArgs;
@@ -24,6 +24,7 @@ pub(super) const OF_PICTURES: [&str; 7] = [
 
 /// What a picture is like, however it is made.
 #[derive(Debug, Args)]
+#[command(next_help_heading = "Pictures")]
 pub struct ImageArgs {
     /// Size of the picture in pixels, as WIDTHxHEIGHT
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
@@ -71,24 +72,34 @@ pub struct DisplayArgs {
     pub samples: Option<u32>,
     /// How light that comes straight from emitters is shown: as patches have it, in a
     /// patch-constant and a smooth picture, or as it is at every sample, in one picture
-    #[arg(long, value_enum, default_value = "patches")]
-    pub direct: DirectArg,
+    /// [default: patches]
+    #[arg(long, value_enum)]
+    pub direct: Option<DirectArg>,
     /// Look around from each sample for the light that is reflected more often, in N directions
     /// [default: 16]; light straight from emitters is exact then
     #[arg(long, value_name = "N", num_args = 0..=1, value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub gather: Option<Option<u32>>,
+    /// The pictures to make, if --direct and --gather do not say it
+    #[arg(
+        long,
+        value_enum,
+        value_delimiter = ',',
+        value_name = "SHADING,..",
+        conflicts_with = "direct"
+    )]
+    pub shading: Vec<ShadingArg>,
     /// Take up to N times as many samples where a pixel shows several faces of different
     /// brightness [default: 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub adaptive: Option<u32>,
     /// Folder for the pictures [default: out]
-    #[arg(long, short, value_name = "DIR")]
+    #[arg(help_heading = "Results", long, short, value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// File formats of the pictures
-    #[arg(long, value_enum, value_delimiter = ',', default_values = ["ppm", "png"])]
+    #[arg(help_heading = "Results", long, value_enum, value_delimiter = ',', default_values = ["ppm", "png"])]
     pub format: Vec<FormatArg>,
     /// Show no small picture in the terminal
-    #[arg(long)]
+    #[arg(help_heading = "Run", long)]
     pub no_live: bool,
 }
 
@@ -129,13 +140,23 @@ impl DisplayArgs {
     }
 
     /// The pictures that are asked for.
-    pub(crate) fn shadings(&self) -> &'static [Shading] {
-        if self.gather.is_some() {
-            return &[Shading::Gathered];
+    pub(crate) fn shadings(&self) -> Vec<Shading> {
+        let mut wanted = self.shading.clone();
+        if wanted.is_empty() {
+            wanted = match (self.gather, self.direct) {
+                (Some(_), _) => vec![ShadingArg::Gathered],
+                (None, Some(DirectArg::Exact)) => vec![ShadingArg::Exact],
+                (None, _) => vec![ShadingArg::Constant, ShadingArg::Smooth],
+            };
         }
-        match self.direct {
-            DirectArg::Patches => &[Shading::Constant, Shading::Smooth],
-            DirectArg::Exact => &[Shading::Exact],
-        }
+        wanted.sort();
+        wanted.dedup();
+        let shading = |shading| match shading {
+            ShadingArg::Constant => Shading::Constant,
+            ShadingArg::Smooth => Shading::Smooth,
+            ShadingArg::Exact => Shading::Exact,
+            ShadingArg::Gathered => Shading::Gathered,
+        };
+        wanted.into_iter().map(shading).collect()
     }
 }

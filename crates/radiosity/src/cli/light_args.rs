@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 
 /// How bright lights are; no solution is made anew for that.
 #[derive(Debug, Args)]
+#[command(next_help_heading = "Lights")]
 pub struct LightArgs {
     /// Make a light darker or brighter than its materials say, by a factor; once for each light
     #[arg(long, value_name = "LIGHT=X", value_parser = parse_dim)]

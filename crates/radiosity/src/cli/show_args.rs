@@ -6,6 +6,7 @@ use clap::Args;
 
 /// What pictures show.
 #[derive(Debug, Args)]
+#[command(next_help_heading = "What is shown")]
 pub struct ShowArgs {
     /// What pictures show: light as an eye would see it, or quantities in false colours [default:
     /// light]

@@ -10,6 +10,7 @@ use std::path::PathBuf;
 
 /// How to solve, and when to stop.
 #[derive(Debug, Args)]
+#[command(next_help_heading = "Solution")]
 pub struct SolveArgs {
     /// How to solve [default: gauss-seidel]
     #[arg(long, value_enum)]

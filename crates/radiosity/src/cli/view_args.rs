@@ -9,6 +9,7 @@ use radiosity_scene::{ALL_VIEWS, FIRST_VIEW, Scene, suggestion};
 
 /// From where pictures are taken.
 #[derive(Debug, Args)]
+#[command(next_help_heading = "Views")]
 pub struct ViewArgs {
     /// The scene's views by their names, `camera` for its first one, or all
     #[arg(long, value_name = "NAME,..|all", value_delimiter = ',')]

@@ -88,7 +88,7 @@ impl Place {
     pub(crate) fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_radiosity"));
         command
-            .args(arguments.split(' '))
+            .args(arguments.split_whitespace())
             .current_dir(self.0.path())
             .env("XDG_CACHE_HOME", self.path("platform-cache"));
         command

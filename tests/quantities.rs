@@ -1,0 +1,113 @@
+//! Quantities that pictures show, against each other: what leaves is what is emitted and what is
+//! reflected of what arrives.
+
+use radiosity::renderer::{Image, Shading};
+use radiosity::scene::{Mode, Scene};
+use radiosity::{PatchLight, Pipeline, Quantity};
+use radiosity_tests::{pipeline, shipped, solve};
+
+const ALL: [Shading; 4] = [
+    Shading::Constant,
+    Shading::Smooth,
+    Shading::Exact,
+    Shading::Gathered,
+];
+
+fn small(name: &str, mode: Mode) -> Scene {
+    let mut scene = shipped(name);
+    (scene.image.width, scene.image.height) = (40, 30);
+    (scene.image.directions, scene.form_factors.mode) = (4, mode);
+    scene
+}
+
+/// The pictures of a quantity by each shading.
+fn pictures(pipeline: &Pipeline<'_>, light: &PatchLight, quantity: Quantity) -> Vec<Image> {
+    let shown = pipeline.shown(light, quantity).unwrap();
+    let camera = pipeline.scene().camera.unwrap();
+    pipeline
+        .look(&pipeline.renderer(&shown, &ALL), &camera)
+        .unwrap()
+}
+
+/// The largest difference between pixels of an image and what it should be, relative to the mean of that.
+fn worst(found: &Image, expected: &Image, of: impl Fn(f32, f32) -> f32) -> f32 {
+    let pairs = found
+        .pixels
+        .as_flattened()
+        .iter()
+        .zip(expected.pixels.as_flattened());
+    let channels = expected.pixels.as_flattened();
+    let mean = channels.iter().sum::<f32>() / channels.len() as f32;
+    pairs.map(|(a, b)| of(*a, *b).abs()).fold(0.0, f32::max) / mean
+}
+
+/// Direct and indirect light are all light, but for rounding. Smooth pictures are kept from swinging
+/// beside shadows, each in its own way, and do not add up there.
+#[test]
+fn direct_and_indirect_light_are_all_light() {
+    let scene = small("cornell", Mode::Accurate);
+    let pipeline = pipeline(&scene);
+    let light = solve(&pipeline).light;
+    let [all, direct, indirect] = [Quantity::Radiosity, Quantity::Direct, Quantity::Indirect]
+        .map(|quantity| pictures(&pipeline, &light, quantity));
+    for (k, shading) in ALL.into_iter().enumerate() {
+        let mut sum = direct[k].clone();
+        let channels = sum.pixels.as_flattened_mut().iter_mut();
+        channels
+            .zip(indirect[k].pixels.as_flattened())
+            .for_each(|(a, b)| *a += b);
+        let off = worst(&sum, &all[k], |a, b| a - b);
+        println!("{shading:?} {off:.1e}");
+        assert!(
+            off < 1e-5 || shading == Shading::Smooth,
+            "{shading:?} {off}"
+        );
+    }
+}
+
+/// In a furnace of reflectance rho and emission E as much arrives as leaves: (B - E) / rho = B.
+#[test]
+fn as_much_arrives_in_a_furnace_as_leaves() {
+    let scene = small("furnace", Mode::Accurate);
+    let pipeline = pipeline(&scene);
+    let light = solve(&pipeline).light;
+    let [leaving, arriving] = [Quantity::Radiosity, Quantity::Irradiance]
+        .map(|quantity| pictures(&pipeline, &light, quantity));
+    for (k, shading) in ALL.into_iter().enumerate() {
+        let off = worst(&arriving[k], &leaving[k], |a, b| a - b);
+        println!("{shading:?} {off:.1e}");
+        // Rows sum to 1 within their errors, which the tolerance bounds on average.
+        assert!(off < 5e-4, "{shading:?} {off}");
+    }
+}
+
+/// `B = rho H` where nothing is emitted: on the white floor of the room, in all modes, patch by patch.
+#[test]
+fn patches_reflect_what_arrives() {
+    for mode in [Mode::Regular, Mode::Accurate] {
+        let scene = small("cornell-closed", mode);
+        let pipeline = pipeline(&scene);
+        let light = solve(&pipeline).light;
+        let [leaving, arriving] = [Quantity::Radiosity, Quantity::Irradiance]
+            .map(|quantity| pictures(&pipeline, &light, quantity).swap_remove(0));
+        // The middle of the lowest row of pixels shows the floor, which reflects the same of every channel.
+        let floor = |image: &Image| Image {
+            width: image.width,
+            height: 1,
+            pixels: image.pixels[image.pixels.len() - 30..][..20].to_vec(),
+        };
+        let reflectance = pipeline
+            .scene()
+            .materials
+            .iter()
+            .find(|m| m.name == "white")
+            .unwrap();
+        let reflectance = reflectance.reflectance[0] as f32;
+        let off = worst(&floor(&arriving), &floor(&leaving), |h, b| {
+            reflectance * h - b
+        });
+        println!("{mode:?} {off:.1e}");
+        // The solver's residual is 1e-6 of what is emitted, which is not much more than this.
+        assert!(off < 1e-4, "{mode:?} {off}");
+    }
+}
