@@ -49,9 +49,10 @@ enum Standing {
 
 /// The most faces that are cut out one by one.
 const MOST_CUT: usize = 48;
-/// Points on an emitter to which segments are tried where more are in the way: for each sample, of
-/// which a pixel has many.
-const POINTS: u32 = 8;
+/// Points on an emitter to which segments are tried where more are in the way: from each sample, of
+/// which a pixel has many, and from each place that is seen from there, of which there are far more.
+pub(crate) const FROM_SAMPLES: u32 = 8;
+pub(crate) const FROM_ELSEWHERE: u32 = 1;
 
 /// Eight points of patches, with their normals.
 pub(crate) struct Points<F> {
@@ -59,6 +60,8 @@ pub(crate) struct Points<F> {
     pub(crate) at: [F; 3],
     pub(crate) normals: [F; 3],
     pub(crate) lanes: u8,
+    /// To how many points of an emitter segments are tried, where too much is in the way.
+    pub(crate) segments: u32,
 }
 
 impl<'a> DirectLight<'a> {
@@ -113,7 +116,12 @@ impl<'a> DirectLight<'a> {
                     Standing::Crowded => {
                         let face = self.mesh.patches[patch].face;
                         let point = (vector(&at), vector(&normals));
-                        factors[lane] = self.crowded_factor(emitter, face, point, room) as f32;
+                        factors[lane] = self.crowded_factor(
+                            emitter,
+                            face,
+                            point,
+                            (points.segments, &mut *room),
+                        ) as f32;
                     }
                 }
             }
@@ -226,7 +234,7 @@ impl DirectLight<'_> {
         emitter: &Emitter,
         face: FaceId,
         (at, normal): (DVec3, DVec3),
-        room: &mut Cutting,
+        (segments, room): (u32, &mut Cutting),
     ) -> f64 {
         let whole = self.cut_factor(emitter, &[], (at, normal), room);
         if whole == 0.0 {
@@ -236,7 +244,7 @@ impl DirectLight<'_> {
         let hash = bits.into_iter().fold(0, |hash, bits| mix(hash ^ bits));
         let scramble = [hash as u32, (hash >> 32) as u32];
         let (mut all, mut visible) = (0.0, 0.0);
-        for k in 0..POINTS {
+        for k in 0..segments {
             let point = emitter.point(sobol(k, scramble));
             let to = point - at;
             let cosines = normal.dot(to).max(0.0) * -emitter.normal.dot(to).min(0.0);

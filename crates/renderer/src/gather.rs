@@ -7,11 +7,12 @@
 //! irradiance is the mean of the radiosities that they meet.
 
 use crate::Rgb;
-use crate::direct::{Cutting, DirectLight, Points};
+use crate::direct::{Cutting, DirectLight, FROM_ELSEWHERE, Points};
 use crate::fields::Fields;
 use crate::interpolate::{Interpolant, Places};
-use crate::render::SampleNumbers;
 use crate::samples::sobol;
+use crate::spots::Gathered;
+use crate::view::SampleNumbers;
 use radiosity_geometry::{DVec2, DVec3, FaceId, Mesh, Occluders, Ray};
 use radiosity_simd::{Float, LANES, Simd};
 use std::f64::consts::TAU;
@@ -29,6 +30,8 @@ pub(crate) struct Gather<'a> {
 #[derive(Default)]
 struct Met {
     lanes: u8,
+    /// The sum of the inverse distances, backs included.
+    inverse: f32,
     patches: [u32; LANES],
     at: [[f64; LANES]; 3],
     normals: [[f64; LANES]; 3],
@@ -54,17 +57,20 @@ impl<'a> Gather<'a> {
         }
     }
 
-    /// The irradiance at samples of a pixel from what others reflect, by channel; `direct` lights
-    /// what is met.
+    /// The irradiance at samples of a pixel from what others reflect; `direct` lights what is met.
     #[inline(always)]
-    pub(crate) fn irradiance<S: Simd>(
+    pub(crate) fn look_around<S: Simd>(
         &self,
         simd: S,
         places: &Places,
         numbers: &SampleNumbers,
         (direct, room): (&DirectLight<'_>, &mut Cutting),
-    ) -> [S::F32; 3] {
-        let mut result = [[0.0; LANES]; 3];
+    ) -> Gathered {
+        let mut result = Gathered {
+            irradiance: [[0.0; LANES]; 3],
+            inverse: [0.0; LANES],
+        };
+        let share = 1.0 / self.directions as f32;
         for lane in (0..LANES).filter(|lane| places.lanes >> lane & 1 != 0) {
             let at = DVec3::from_array(places.points.map(|axis| axis[lane]));
             // All samples of a pixel share one sequence.
@@ -74,19 +80,16 @@ impl<'a> Gather<'a> {
             for from in (first..end).step_by(LANES) {
                 let count = (end - from).min(LANES as u32);
                 let met = self.look((places.face, at), from..from + count, numbers.scramble);
+                result.inverse[lane] += share * met.inverse;
                 if met.lanes != 0 {
                     self.add(simd, &met, (direct, &mut *room), &mut sums);
                 }
             }
-            for (result, sum) in result.iter_mut().zip(sums) {
-                result[lane] = sum.lanes().iter().sum::<f32>() / self.directions as f32;
+            for (result, sum) in result.irradiance.iter_mut().zip(sums) {
+                result[lane] = share * sum.lanes().iter().sum::<f32>();
             }
         }
-        [
-            simd.f32(&result[0]),
-            simd.f32(&result[1]),
-            simd.f32(&result[2]),
-        ]
+        result
     }
 
     /// Looks in some directions, eight at most.
@@ -105,6 +108,7 @@ impl<'a> Gather<'a> {
             let hit = self
                 .occluders
                 .closest_hit(&ray, 0.0, f64::INFINITY, Some(face));
+            met.inverse += hit.map_or(0.0, |hit| 1.0 / hit.t) as f32;
             let Some(hit) = hit.filter(|hit| hit.front) else {
                 continue;
             };
@@ -140,6 +144,7 @@ impl<'a> Gather<'a> {
             at: [simd.f64(x), simd.f64(y), simd.f64(z)],
             normals: [simd.f64(u), simd.f64(v), simd.f64(w)],
             lanes: met.lanes,
+            segments: FROM_ELSEWHERE,
         };
         let irradiance = direct.irradiance(simd, &points, room);
         for c in 0..3 {

@@ -26,8 +26,10 @@ mod resample;
 mod samples;
 mod shade;
 mod sheet;
+mod spots;
 mod tone;
 mod vertex;
+mod view;
 
 #[cfg(feature = "openexr")]
 pub use encode::encode_exr;

@@ -1,13 +1,15 @@
 //! The radiosity that a sample shows, by each shading.
 
 use crate::Rgb;
-use crate::direct::{Cutting, DirectLight, Points};
+use crate::direct::{Cutting, DirectLight, FROM_SAMPLES, Points};
 use crate::fields::Fields;
 use crate::gather::Gather;
 use crate::interpolate::{Interpolant, Local, Places};
-use crate::render::{SampleNumbers, Shading, ShadingParams};
-use radiosity_geometry::Mesh;
-use radiosity_simd::{Float, Simd};
+use crate::render::{Shading, ShadingParams};
+use crate::spots::{Gathered, Spot};
+use crate::view::SampleNumbers;
+use radiosity_geometry::{DVec3, Mesh};
+use radiosity_simd::{Float, LANES, Simd};
 
 /// Shows the light of patches at places of their faces.
 pub(crate) struct Shader<'a> {
@@ -29,6 +31,10 @@ pub(crate) struct Shader<'a> {
 pub(crate) struct Room {
     cutting: Cutting,
     pub(crate) numbers: SampleNumbers,
+    /// Where light was gathered so far.
+    pub(crate) spots: Vec<Spot>,
+    /// The first of this pixel.
+    pub(crate) first_spot: usize,
 }
 
 impl<'a> Shader<'a> {
@@ -67,6 +73,11 @@ impl<'a> Shader<'a> {
         &self.shadings
     }
 
+    /// The place of a shading among them.
+    pub(crate) fn index_of(&self, shading: Shading) -> Option<usize> {
+        self.shadings.iter().position(|other| *other == shading)
+    }
+
     /// Whether places are asked for their points in space.
     pub(crate) fn needs_points(&self) -> bool {
         self.direct.is_some()
@@ -94,8 +105,7 @@ impl<'a> Shader<'a> {
         if shading == Shading::Smooth {
             return values;
         }
-        let nothing = [simd.splat_f32(0.0); 3];
-        self.with_direct(simd, [values, nothing], place, room)
+        self.with_direct(simd, values, place, room)
     }
 
     /// The values of the patches at places.
@@ -114,6 +124,7 @@ impl<'a> Shader<'a> {
         values
     }
 
+    /// Emitted and direct light; the rest goes to spots.
     #[inline(always)]
     fn gathered<S: Simd>(
         &self,
@@ -121,26 +132,42 @@ impl<'a> Shader<'a> {
         (places, local): (&Places, &Local),
         room: &mut Room,
     ) -> [S::F32; 3] {
-        let nothing = [simd.splat_f32(0.0); 3];
-        let mut arriving = nothing;
         if let (Some(gather), Some(direct)) = (&self.gather, &self.direct) {
             let with = (direct, &mut room.cutting);
-            arriving = gather.irradiance(simd, places, &room.numbers, with);
+            let gathered = gather.look_around(simd, places, &room.numbers, with);
+            self.add_spots((places, local), &gathered, room);
         }
-        self.with_direct(simd, [nothing, arriving], (places, local), room)
+        self.with_direct(simd, [simd.splat_f32(0.0); 3], (places, local), room)
+    }
+
+    /// Adds samples to the spot of their pixel and face.
+    fn add_spots(&self, (places, local): (&Places, &Local), gathered: &Gathered, room: &mut Room) {
+        let mut of_pixel = room.spots[room.first_spot..].iter();
+        let known = of_pixel.position(|spot| spot.face == places.face);
+        let index = known.map_or(room.spots.len(), |known| room.first_spot + known);
+        if known.is_none() {
+            room.spots.push(Spot::new(places.face));
+        }
+        for lane in (0..LANES).filter(|lane| places.lanes >> lane & 1 != 0) {
+            let at = DVec3::from_array(places.points.map(|axis| axis[lane]));
+            let weight = room.numbers.weights[lane];
+            let gain = self.fields.indirect_gain[local.number[lane] as usize];
+            let gain = gain.map(|gain| weight * gain);
+            room.spots[index].add(lane, at, gathered, gain);
+        }
     }
 
     /// What patches emit and reflect of direct light at places, added to indirect light that leaves
-    /// there, and to what they reflect of indirect light that arrives there.
+    /// there.
     #[inline(always)]
     fn with_direct<S: Simd>(
         &self,
         simd: S,
-        [leaving, arriving]: [[S::F32; 3]; 2],
+        indirect: [S::F32; 3],
         (places, local): (&Places, &Local),
         room: &mut Room,
     ) -> [S::F32; 3] {
-        let mut values = leaving;
+        let mut values = indirect;
         let Some(direct) = &self.direct else {
             return values;
         };
@@ -151,6 +178,7 @@ impl<'a> Shader<'a> {
             at: [simd.f64(x), simd.f64(y), simd.f64(z)],
             normals: normal.to_array().map(|axis| simd.splat_f64(axis)),
             lanes: places.lanes,
+            segments: FROM_SAMPLES,
         };
         let irradiance = direct.irradiance(simd, &points, &mut room.cutting);
         let fields = &self.fields;
@@ -159,9 +187,8 @@ impl<'a> Shader<'a> {
             let (patch, same) = local.first_of(rest);
             for c in 0..3 {
                 let direct = irradiance[c] * simd.splat_f32(fields.direct_gain[patch][c]);
-                let indirect = arriving[c] * simd.splat_f32(fields.indirect_gain[patch][c]);
                 let emission = simd.splat_f32(fields.emission[patch][c]);
-                let sum = values[c] + direct + indirect + emission;
+                let sum = values[c] + direct + emission;
                 values[c] = sum.select(same, values[c]);
             }
             rest &= !same;

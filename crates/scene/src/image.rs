@@ -96,7 +96,7 @@ impl Exposure {
 /// The course's.
 const DEFAULT_GAMMA: f64 = 2.2;
 const DEFAULT_CREASE_ANGLE: f64 = 30.0;
-const DEFAULT_DIRECTIONS: u32 = 16;
+const DEFAULT_DIRECTIONS: u32 = 4;
 /// Of green light of 540 THz (BIPM, "The International System of Units", 9th edition, 2019).
 const DEFAULT_LUMENS_PER_WATT: f64 = 683.0;
 

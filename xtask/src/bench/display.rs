@@ -22,9 +22,8 @@ const GOOD: u32 = 24;
 /// Passes of the path tracer, of four samples a pixel, that tell its speed.
 const PASSES: u32 = 4;
 
-/// What light is gathered from, in how many directions from each sample.
-const COURSE: u32 = 12;
-const DIRECTIONS: u32 = 64;
+/// Patches along each edge that light is gathered from.
+const GATHERED: [u32; 2] = [12, 24];
 
 const TIMES_THE_COURSE: f64 = 25.0;
 const WHOLE_RUN: f64 = 110.0;
@@ -50,7 +49,9 @@ pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
     }
     let good = errors.iter().find(|(divisions, _)| *divisions == GOOD);
     let view = good.map(|(_, view)| view).expect("it is one of the sizes");
-    figures.extend(gathered_view(&scene, &truth)?);
+    for divisions in GATHERED {
+        figures.extend(gathered_view(&scene, divisions, &truth)?);
+    }
     figures.extend(beside_the_tracer(&scene, &truth, view)?);
     super::show(&figures, json);
     Ok(())
@@ -202,10 +203,9 @@ fn nearly_exact(scene: &Scene, divisions: u32) -> Scene {
     scene
 }
 
-/// All light gathered at samples, from the course's patches.
-fn gathered_view(scene: &Scene, truth: &Truth) -> Result<Vec<Figure>, Error> {
-    let mut scene = nearly_exact(scene, COURSE);
-    scene.image.directions = DIRECTIONS;
+/// All light gathered at samples.
+fn gathered_view(scene: &Scene, divisions: u32, truth: &Truth) -> Result<Vec<Figure>, Error> {
+    let scene = nearly_exact(scene, divisions);
     let pipeline = Pipeline::new(&scene, None, &Silent)?;
     let light = pipeline.solution(Sources::Cached)?.light;
     let start = Instant::now();
@@ -213,15 +213,18 @@ fn gathered_view(scene: &Scene, truth: &Truth) -> Result<Vec<Figure>, Error> {
     let seconds = start.elapsed().as_secs_f64();
     let error = truth.error(&pictures[0], &scene)?;
     let most = Some(Target::Between(0.0, GATHERED_PERCENT));
+    let named = |what: &str, value, unit, target| {
+        figure(&format!("gathered.{divisions}.{what}"), value, unit, target)
+    };
     Ok(vec![
-        figure(
-            "gathered.12.error",
+        named(
+            "error",
             error,
-            "% away from edges, 64 directions",
+            "% away from edges, 4 directions a sample",
             most,
         ),
-        figure(
-            "gathered.12.seconds",
+        named(
+            "seconds",
             seconds,
             "s for a further view, all threads",
             None,

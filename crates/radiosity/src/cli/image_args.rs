@@ -76,7 +76,7 @@ pub struct DisplayArgs {
     #[arg(long, value_enum)]
     pub direct: Option<DirectArg>,
     /// Look around from each sample for the light that is reflected more often, in N directions
-    /// [default: 16]; light straight from emitters is exact then
+    /// [default: 4]; light straight from emitters is exact then
     #[arg(long, value_name = "N", num_args = 0..=1, value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub gather: Option<Option<u32>>,
     /// The pictures to make, if --direct and --gather do not say it

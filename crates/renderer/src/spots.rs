@@ -1,0 +1,273 @@
+//! Gathered light at spots, the parts of faces that pixels show, each put right by its neighbours.
+//!
+//! What few directions tell of a spot is noisy, but light that is reflected more often changes slowly:
+//! over a distance as far as other surfaces are (Ward & Heckbert, "Irradiance Gradients", 1992).
+//! So a plane is fitted to the irradiances of spots that are nearer than a part of that, by weighted
+//! least squares, and its value at the spot is taken: no slope is lost, and no edge crossed.
+
+use crate::{Rgb, add_scaled};
+use radiosity_geometry::{DVec3, FaceId, Mesh, SurfaceId};
+use radiosity_simd::LANES;
+
+/// Samples of a pixel that show one face.
+#[derive(Clone, Debug)]
+pub(crate) struct Spot {
+    /// The column of the pixel.
+    pub(crate) x: u32,
+    pub(crate) face: FaceId,
+    /// How much of its irradiance the pixel shows.
+    pub(crate) gain: Rgb,
+    /// Sums over samples.
+    count: f32,
+    irradiance: Rgb,
+    /// Of mean inverse distances to what is seen.
+    inverse: f32,
+    position: DVec3,
+}
+
+/// What has been gathered at eight samples on a face.
+pub(crate) struct Gathered {
+    pub(crate) irradiance: [[f32; LANES]; 3],
+    /// The means of inverse distances to what was met.
+    pub(crate) inverse: [f32; LANES],
+}
+
+/// Pixels to either side whose spots count.
+const REACH: u32 = 4;
+/// And how far away they may be, in harmonic mean distances to what is seen.
+const NEAR: f64 = 0.3;
+/// The cosine between normals below which faces of a mesh do not share their light.
+const ALIKE: f64 = 0.95;
+
+impl Spot {
+    pub(crate) fn new(face: FaceId) -> Spot {
+        Spot {
+            x: 0,
+            face,
+            gain: [0.0; 3],
+            count: 0.0,
+            irradiance: [0.0; 3],
+            inverse: 0.0,
+            position: DVec3::ZERO,
+        }
+    }
+
+    /// Adds the sample in a lane; `gain` is how much the pixel shows of it.
+    pub(crate) fn add(&mut self, lane: usize, at: DVec3, gathered: &Gathered, gain: Rgb) {
+        self.count += 1.0;
+        add_scaled(
+            &mut self.irradiance,
+            1.0,
+            gathered.irradiance.map(|channel| channel[lane]),
+        );
+        add_scaled(&mut self.gain, 1.0, gain);
+        self.inverse += gathered.inverse[lane];
+        self.position += at;
+    }
+
+    fn center(&self) -> DVec3 {
+        self.position / f64::from(self.count)
+    }
+}
+
+/// Spots, row by row, each from left to right.
+pub(crate) struct Spots<'a> {
+    mesh: &'a Mesh,
+    rows: &'a [Vec<Spot>],
+}
+
+/// Sums of a weighted least squares fit of `a + b u + c v`.
+#[derive(Default)]
+struct Fit {
+    /// Of 1, u, v, u u, u v, v v.
+    moments: [f64; 6],
+    /// Of the values, times 1, u and v.
+    values: [[f64; 3]; 3],
+}
+
+impl<'a> Spots<'a> {
+    pub(crate) fn new(mesh: &'a Mesh, rows: &'a [Vec<Spot>]) -> Spots<'a> {
+        Spots { mesh, rows }
+    }
+
+    /// The irradiance at a spot of a row, as its neighbours see it.
+    pub(crate) fn irradiance(&self, y: usize, spot: &Spot) -> Rgb {
+        let (center, normal) = (spot.center(), self.normal(spot));
+        let (tangent, bitangent) = normal.any_orthonormal_pair();
+        let radius = NEAR * f64::from(spot.count / spot.inverse.max(f32::MIN_POSITIVE));
+        let mut fit = Fit::default();
+        for other in self.around(y, spot) {
+            let offset = other.center() - center;
+            let closeness = 1.0 - offset.length_squared() / (radius * radius);
+            let is_itself = std::ptr::eq(other, spot);
+            if is_itself || closeness > 0.0 && self.are_alike(other, spot, normal) {
+                let kernel = if is_itself {
+                    1.0
+                } else {
+                    closeness * closeness
+                };
+                let plane = [offset.dot(tangent), offset.dot(bitangent)];
+                fit.add(kernel, plane, other);
+            }
+        }
+        fit.at_center()
+    }
+
+    /// The spots of pixels nearby.
+    fn around(&self, y: usize, spot: &Spot) -> impl Iterator<Item = &'a Spot> {
+        let reach = REACH as usize;
+        let rows = y.saturating_sub(reach)..(y + reach + 1).min(self.rows.len());
+        let (left, right) = (spot.x.saturating_sub(REACH), spot.x + REACH);
+        self.rows[rows].iter().flat_map(move |row| {
+            let first = row.partition_point(|other| other.x < left);
+            row[first..]
+                .iter()
+                .take_while(move |other| other.x <= right)
+        })
+    }
+
+    /// Whether two spots lie on one smooth surface.
+    fn are_alike(&self, other: &Spot, spot: &Spot, normal: DVec3) -> bool {
+        other.face == spot.face
+            || self.surface(other) == self.surface(spot) && self.normal(other).dot(normal) >= ALIKE
+    }
+
+    fn normal(&self, spot: &Spot) -> DVec3 {
+        self.mesh.faces[spot.face.index()].normal
+    }
+
+    fn surface(&self, spot: &Spot) -> SurfaceId {
+        self.mesh.faces[spot.face.index()].surface
+    }
+}
+
+impl Fit {
+    /// Adds a spot at a place of the plane, by its samples.
+    fn add(&mut self, kernel: f64, [u, v]: [f64; 2], spot: &Spot) {
+        let weight = kernel * f64::from(spot.count);
+        let terms = [1.0, u, v, u * u, u * v, v * v];
+        for (moment, term) in self.moments.iter_mut().zip(terms) {
+            *moment += weight * term;
+        }
+        for (c, values) in self.values.iter_mut().enumerate() {
+            // The mean over samples, times their number.
+            let value = kernel * f64::from(spot.irradiance[c]);
+            for (sum, term) in values.iter_mut().zip(terms) {
+                *sum += value * term;
+            }
+        }
+    }
+
+    /// The plane's value where `u = v = 0`, but never less than nothing; the mean, if the places do not
+    /// tell a plane.
+    fn at_center(&self) -> Rgb {
+        let [one, u, v, uu, uv, vv] = self.moments;
+        // Cofactors of the first column of the moments' matrix.
+        let cofactors = [uu * vv - uv * uv, v * uv - u * vv, u * uv - v * uu];
+        let determinant = one * cofactors[0] + u * cofactors[1] + v * cofactors[2];
+        let is_told = determinant > FLAT * one * uu * vv;
+        std::array::from_fn(|c| {
+            let values = &self.values[c];
+            let at_center = if is_told {
+                let products = values.iter().zip(cofactors).map(|(value, k)| value * k);
+                products.sum::<f64>() / determinant
+            } else {
+                values[0] / one
+            };
+            at_center.max(0.0) as f32
+        })
+    }
+}
+
+/// Determinants of less than this, where 1 is as good as it gets, tell no plane.
+const FLAT: f64 = 1e-2;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use radiosity_geometry::{Divisions, Shape, Surface, subdivide};
+
+    /// Two squares of a unit edge, beside each other in one plane but not one surface.
+    fn squares() -> Mesh {
+        let surface = |x: f64| Surface {
+            shape: Shape::Quad(
+                [[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]]
+                    .map(|[x, y]| DVec3::new(x, y, 0.0)),
+            ),
+            divisions: None,
+        };
+        subdivide(&[surface(0.0), surface(1.0)], Divisions::uniform(1)).unwrap()
+    }
+
+    /// A spot of one sample in each of 10 x 10 pixels, whose irradiance is told by its place.
+    fn rows(inverse: f32, value: impl Fn(DVec3) -> f32) -> Vec<Vec<Spot>> {
+        let spot = |x: u32, y: u32| {
+            let at = DVec3::new(0.2 * f64::from(x) + 0.1, 0.1 * f64::from(y) + 0.05, 0.0);
+            let mut spot = Spot::new(FaceId(u32::from(x >= 5)));
+            let gathered = Gathered {
+                irradiance: [[value(at); LANES]; 3],
+                inverse: [inverse; LANES],
+            };
+            spot.add(3, at, &gathered, [1.0; 3]);
+            spot.x = x;
+            spot
+        };
+        (0..10)
+            .map(|y| (0..10).map(|x| spot(x, y)).collect())
+            .collect()
+    }
+
+    /// At borders, too, where all neighbours lie to one side; what the other square has does not count.
+    #[test]
+    fn slopes_are_kept() {
+        let mesh = squares();
+        let plane = |at: DVec3| {
+            let jump = if at.x > 1.0 { 100.0 } else { 0.0 };
+            (7.0 + 2.0 * at.x - 3.0 * at.y + jump) as f32
+        };
+        let rows = rows(0.3, plane);
+        let spots = Spots::new(&mesh, &rows);
+        for (y, row) in rows.iter().enumerate() {
+            for spot in row {
+                let expected = plane(spot.center());
+                let found = spots.irradiance(y, spot)[1];
+                assert!((found / expected - 1.0).abs() < 1e-5, "{found} {expected}");
+            }
+        }
+    }
+
+    /// Where something is near, neighbours are not asked; where nothing is, noise becomes a third of
+    /// itself at least, in the middle: some 40 neighbours count.
+    #[test]
+    fn neighbours_count_as_far_as_surfaces_are_away() {
+        let mesh = squares();
+        let noisy = |at: DVec3| 1.0 + ((1000.0 * at.x).round() * 0.37 + at.y * 91.7).sin() as f32;
+        let off = |inverse: f32| {
+            let rows = rows(inverse, noisy);
+            let spots = Spots::new(&mesh, &rows);
+            let inner = rows.iter().enumerate().skip(3).take(4);
+            let squares = inner.map(|(y, row)| (spots.irradiance(y, &row[2])[0] - 1.0).powi(2));
+            (squares.sum::<f32>() / 4.0).sqrt()
+        };
+        let rows = rows(100.0, noisy);
+        let spot = &rows[4][2];
+        assert_eq!(
+            Spots::new(&mesh, &rows).irradiance(4, spot)[0],
+            noisy(spot.center())
+        );
+        assert!(off(0.3) < off(100.0) / 3.0, "{} {}", off(0.3), off(100.0));
+    }
+
+    /// One spot alone has what was gathered there.
+    #[test]
+    fn a_lonely_spot_is_what_it_is() {
+        let mesh = squares();
+        let mut rows = rows(0.0, |_| 2.5);
+        rows.truncate(1);
+        rows[0].truncate(1);
+        assert_eq!(
+            Spots::new(&mesh, &rows).irradiance(0, &rows[0][0]),
+            [2.5; 3]
+        );
+    }
+}
