@@ -42,7 +42,7 @@ fn worst(found: &Image, expected: &Image, of: impl Fn(f32, f32) -> f32) -> f32 {
 }
 
 /// Direct and indirect light are all light, but for rounding. Smooth pictures are kept from swinging
-/// beside shadows, each in its own way, and do not add up there.
+/// beside shadows, each in its own way, and add up within some percent there.
 #[test]
 fn direct_and_indirect_light_are_all_light() {
     let scene = small("cornell", Mode::Accurate);
@@ -58,10 +58,12 @@ fn direct_and_indirect_light_are_all_light() {
             .for_each(|(a, b)| *a += b);
         let off = worst(&sum, &all[k], |a, b| a - b);
         println!("{shading:?} {off:.1e}");
-        assert!(
-            off < 1e-5 || shading == Shading::Smooth,
-            "{shading:?} {off}"
-        );
+        let most = if shading == Shading::Smooth {
+            0.2
+        } else {
+            1e-5
+        };
+        assert!(off < most, "{shading:?} {off}");
     }
 }
 

@@ -41,7 +41,7 @@ fn the_course_is_reproduced() {
     assert!(smooth.rmse_percent < 5.9, "smooth picture {smooth:?}");
 }
 
-/// What patches of constant radiosity cost is all that is left: 1.24 % and 0.58 % with factors that are
+/// What patches of constant radiosity cost is all that is left: 1.28 % and 0.52 % with factors that are
 /// nearly exact where whole patches are the elements, and 0.39 % over the larger cells; less where what is
 /// visible of them is.
 #[test]

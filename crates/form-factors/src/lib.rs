@@ -59,7 +59,7 @@ pub use tally::{ClassFacts, Classes, Tally};
 
 /// Raise it whenever the same mesh would give other form factors, because of a change here, in
 /// `geometry`, or in the random numbers: it is part of their key.
-pub const VERSION: u32 = 7;
+pub const VERSION: u32 = 8;
 
 /// How the double integral of a pair is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -127,7 +127,7 @@ pub struct RowFacts {
     /// Standard error of the sum of `backs` and `background`.
     pub rays_error: f64,
     /// The share of the patch's area that can be seen: points that see nearly nothing but backs are
-    /// inside of something, or covered. By rays, to some percent.
+    /// inside of something, or covered. By rays, to a percent.
     pub visible: f64,
     /// The estimated sum of the absolute errors of the row's factors, if the estimator tells.
     pub error: Option<f64>,

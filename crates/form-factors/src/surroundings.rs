@@ -31,7 +31,7 @@ const CLOSE_LOOK: Effort = Effort {
 /// it. Under a low table that is open at its sides less is seen of backs, and some light arrives.
 const HIDDEN: f64 = 0.95;
 /// Where they are more than this in a cell of the first look, a part of it may be hidden.
-const SUSPICIOUS: f64 = 0.8;
+const SUSPICIOUS: f64 = 0.6;
 /// Tells these shifts from those of pairs of patches.
 const SEED: u64 = 1;
 /// So many faces are tried in turn; more are found by a tree.
@@ -92,14 +92,39 @@ pub(crate) fn look_around(mesh: &Mesh, obstacles: &Obstacles, index: usize) -> S
     }
 }
 
-/// The share of the cells that are not hidden, by the weights of their rays.
+/// The visible share of a square of cells, by the weights of their rays. A cell beside a hidden one may
+/// be hidden in part, and then sees more of backs than cells elsewhere do.
 fn visible_share(cells: &[[f64; 2]]) -> f64 {
-    let (mut visible, mut whole) = (0.0, 0.0);
-    for [all, backs] in cells {
-        whole += all;
-        visible += if *backs <= HIDDEN * all { *all } else { 0.0 };
-    }
-    visible / whole
+    let edge = cells.len().isqrt();
+    let is_hidden = |cell: usize| cells[cell][1] > HIDDEN * cells[cell][0];
+    let is_beside_hidden = |cell: usize| {
+        let around = |k: usize| k.saturating_sub(1)..(k + 2).min(edge);
+        let (i, j) = (cell / edge, cell % edge);
+        around(i).any(|i| around(j).any(|j| is_hidden(edge * i + j)))
+    };
+    let sum = |of: &mut dyn Iterator<Item = usize>| {
+        of.fold([0.0; 2], |[all, backs], cell| {
+            [all + cells[cell][0], backs + cells[cell][1]]
+        })
+    };
+    let [clear, clear_backs] = sum(&mut (0..cells.len()).filter(|&k| !is_beside_hidden(k)));
+    let usual = if clear > 0.0 {
+        clear_backs / clear
+    } else {
+        0.0
+    };
+    let visible = |cell: usize| -> f64 {
+        let [all, backs] = cells[cell];
+        if !is_beside_hidden(cell) {
+            all
+        } else if is_hidden(cell) {
+            0.0
+        } else {
+            all * ((1.0 - backs / all) / (1.0 - usual)).clamp(0.0, 1.0)
+        }
+    };
+    let [whole, _] = sum(&mut (0..cells.len()));
+    (0..cells.len()).map(visible).sum::<f64>() / whole
 }
 
 /// The walls in front of a patch, unless there are too many in the scene.

@@ -10,6 +10,7 @@ use radiosity_cache::{Id, Key, Store};
 use radiosity_form_factors::{self as form_factors, FormFactors};
 use radiosity_geometry::{self as geometry, Mesh};
 use radiosity_scene::{Material, Mode, Scene};
+use std::sync::OnceLock;
 
 mod factors;
 mod pictures;
@@ -37,6 +38,8 @@ pub struct Pipeline<'a> {
     /// And of those that are used.
     key: Key,
     start: Option<Start>,
+    /// Form factors that are used again, if they are to be kept.
+    kept: Option<OnceLock<FormFactors>>,
 }
 
 /// Form factors and where they came from.
@@ -99,11 +102,17 @@ impl<'a> Pipeline<'a> {
             observer,
             lights: (0..scene.lights.len()).map(of_light).collect(),
             start: None,
+            kept: None,
             reflectance: (0..patches)
                 .map(|patch| material(patch).reflectance)
                 .collect(),
             mesh,
         })
+    }
+
+    /// Has form factors kept in memory once they are made, for whoever asks for them again.
+    pub fn keep_form_factors(&mut self) {
+        self.kept = Some(OnceLock::new());
     }
 
     /// The scene.

@@ -67,6 +67,17 @@ fn pictures_are_named_after_view_quantity_and_shading() {
         names("--path 2 --show direct --direct exact"),
         ["path-0001-direct-exact", "path-0002-direct-exact"]
     );
+    assert_eq!(
+        names("--views all,top --turntable 1 --shading smooth,constant --show direct"),
+        [
+            "side-turntable-0001-direct-constant",
+            "side-turntable-0001-direct-smooth",
+            "top-turntable-0001-direct-constant",
+            "top-turntable-0001-direct-smooth",
+            "turntable-0001-direct-constant",
+            "turntable-0001-direct-smooth"
+        ]
+    );
     // The first frame of a turn is the view itself, and a path begins and ends at views.
     let bytes = |name: &str| fs::read(place.path(&format!("out/views-{name}.ppm"))).unwrap();
     names("--format ppm --views all --show light,direct --direct exact");
@@ -76,6 +87,60 @@ fn pictures_are_named_after_view_quantity_and_shading() {
     names("--format ppm --path 2 --show direct --direct exact");
     assert!(bytes("turntable-0001-exact") == alone);
     assert!(bytes("path-0001-direct-exact") == first && bytes("path-0002-direct-exact") == last);
+}
+
+/// Nothing is written, or even solved for, if one of the pictures cannot be made.
+#[test]
+fn what_cannot_be_made_is_refused_at_once() {
+    let place = Place::new();
+    let view = "[[views]]\nname = \"direct\"\ncamera = { position = [0.5, 0.5, 3], look_at = [0, 0, 0], vertical_fov = 30 }";
+    place.write("direct.toml", &format!("{SCENE}{view}"));
+    for (arguments, expected) in [
+        (
+            "direct.toml --views all --show light,direct",
+            "two pictures would be called `direct-constant`",
+        ),
+        (
+            "room.toml --mode regular --show light,error",
+            "use --mode accurate",
+        ),
+    ] {
+        let (code, message) = place.fail(&format!("render {arguments} --cache c"));
+        assert_eq!(code, 3);
+        assert!(message.contains(expected), "{message}");
+    }
+    assert!(!place.path("c").exists() && !place.path("out").exists());
+}
+
+/// Quantities that need form factors say where they had them from; and without a cache they are
+/// estimated once.
+#[test]
+fn form_factors_are_made_once() {
+    let place = Place::new();
+    let report = place.json("display room.toml --cache c --show irradiance");
+    assert_eq!(
+        report["stages"]["form_factors"]["reason"],
+        "nothing cached yet"
+    );
+    for entry in fs::read_dir(place.path("c")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.to_string_lossy().contains("form-factors") {
+            fs::remove_file(path).unwrap();
+        }
+    }
+    // The solution is still there.
+    let report = place.json("display room.toml --cache c --show irradiance,error");
+    assert_eq!(
+        report["stages"]["form_factors"]["reason"],
+        "nothing cached yet"
+    );
+    assert_eq!(report["stages"]["solve"]["cached"], true);
+    let all = "--show irradiance,illuminance,error --factors-of floor:1,1";
+    let (_, _, stderr) = place.run(&format!("display room.toml --no-cache {all} --json"));
+    let lines = stderr
+        .lines()
+        .filter(|line| line.starts_with("form factors"));
+    assert_eq!(lines.count(), 1, "{stderr}");
 }
 
 /// A lamp alone is the others switched off; and switched off itself, it is dark.
@@ -180,6 +245,18 @@ fn what_cannot_be_shown_is_explained() {
         ("room.toml --gather 2 --preview", 3, "leave out --preview"),
         ("room.toml --only lampe", 3, "did you mean `lamp`?"),
         ("room.toml --turntable 3 --path 3", 2, "cannot be used with"),
+        (
+            "room.toml --direct exact --gather 2",
+            2,
+            "cannot be used with",
+        ),
+        (
+            "views.toml --views all,nonsense",
+            3,
+            "there is no view `nonsense`",
+        ),
+        ("room.toml --top 1e-300", 2, "between 1e-30 and 1e30"),
+        ("--gather room.toml", 2, "a scene's name goes before it"),
     ] {
         let (found, message) = place.fail(&format!("display {arguments} --no-cache"));
         assert_eq!(found, code, "{arguments}: {message}");

@@ -81,7 +81,7 @@ fn pictures(criterion: &mut Criterion) {
             indirect: &same,
             direct: &same,
             direct_gain: &same,
-            indirect_gain: &same,
+            gathered_gain: &same,
             visible: &vec![1.0; radiosity.len()],
         };
         group.bench_function(name, |b| {

@@ -1,7 +1,7 @@
 //! Numbers as colours: which number has which, and the legend that says so.
 
 use crate::image::Values;
-use crate::lettering::{Align, LINE, letter, width_of};
+use crate::lettering::{Align, INK, LINE, PAPER, letter, width_of};
 use crate::picture::Picture;
 use colorous::VIRIDIS;
 
@@ -34,6 +34,11 @@ impl ColorScale {
             top,
             bottom: Some(10f64.powi(-DECADES)),
         }
+    }
+
+    /// The number that has the brightest colour.
+    pub fn top(&self) -> f64 {
+        self.top
     }
 
     /// A round number that few of some numbers exceed: the top of a scale for them.
@@ -104,8 +109,6 @@ impl ColorScale {
 const MARGIN: u32 = 10;
 const BAR: u32 = 16;
 const TICK: u32 = 4;
-const PAPER: [u8; 3] = [24, 24, 24];
-const INK: [u8; 3] = [225, 225, 225];
 
 /// Adds a legend to the right of a picture: the quantity, its unit, and which numbers the colours
 /// stand for.
@@ -150,16 +153,22 @@ fn number(x: f64) -> String {
     if x == 0.0 {
         return "0".to_owned();
     }
-    if !(1e-3..1e5).contains(&x) {
-        return format!("{x:.0e}");
+    let trimmed = |text: &str| {
+        let digits = text.trim_end_matches('0');
+        digits.trim_end_matches('.').to_owned()
+    };
+    if !(1e-3..1e6).contains(&x) {
+        let text = format!("{x:.2e}");
+        let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
+        return format!("{}e{power}", trimmed(digits));
     }
     let decimals = (2 - x.log10().floor() as i32).max(0) as usize;
     let text = format!("{x:.decimals$}");
     if text.contains('.') {
-        let text = text.trim_end_matches('0');
-        return text.trim_end_matches('.').to_owned();
+        trimmed(&text)
+    } else {
+        text
     }
-    text
 }
 
 #[cfg(test)]
@@ -201,8 +210,26 @@ mod tests {
         assert_eq!(linear(30.0), [0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0]);
         assert_eq!(linear(1500.0)[..3], [0.0, 250.0, 500.0]);
         assert_eq!(ColorScale::logarithmic(50.0).ticks(), [0.1, 1.0, 10.0]);
-        let labels = [0.0, 0.25, 5.0, 150.0, 12_345.0, 2e-4, 3e6].map(number);
-        assert_eq!(labels, ["0", "0.25", "5", "150", "12345", "2e-4", "3e6"]);
+        let labels = [0.0, 0.25, 5.0, 150.0, 12_345.0, 2.5e-4, 3e6].map(number);
+        assert_eq!(labels, ["0", "0.25", "5", "150", "12345", "2.5e-4", "3e6"]);
+    }
+
+    /// Labels say what ticks are, of any scale; and there are not many.
+    #[test]
+    fn labels_are_those_of_ticks() {
+        for power in -37..38 {
+            for digits in [1.0, 1.5, 2.0, 3.0, 7.3] {
+                let top = digits * 10f64.powi(power);
+                for scale in [ColorScale::linear(top), ColorScale::logarithmic(top)] {
+                    let ticks = scale.ticks();
+                    assert!((3..=11).contains(&ticks.len()), "{top} {ticks:?}");
+                    for tick in ticks {
+                        let label: f64 = number(tick).parse().unwrap();
+                        assert!((label - tick).abs() <= 1e-9 * tick, "{label} {tick}");
+                    }
+                }
+            }
+        }
     }
 
     /// Of a hundred numbers two are above 98, and one of them is a lamp.

@@ -24,6 +24,6 @@ pub struct Fields<'a> {
     pub direct: &'a [Rgb],
     /// How much is shown of the irradiance straight from emitters.
     pub direct_gain: &'a [Rgb],
-    /// And of the irradiance from elsewhere.
-    pub indirect_gain: &'a [Rgb],
+    /// And of the irradiance from elsewhere, where it is gathered.
+    pub gathered_gain: &'a [Rgb],
 }

@@ -74,12 +74,12 @@ impl<'a> Gather<'a> {
         for lane in (0..LANES).filter(|lane| places.lanes >> lane & 1 != 0) {
             let at = DVec3::from_array(places.points.map(|axis| axis[lane]));
             // All samples of a pixel share one sequence.
-            let first = (numbers.first + lane as u32) * self.directions;
-            let end = first + self.directions;
+            let first = (numbers.first + lane as u32).wrapping_mul(self.directions);
             let mut sums = [simd.splat_f32(0.0); 3];
-            for from in (first..end).step_by(LANES) {
-                let count = (end - from).min(LANES as u32);
-                let met = self.look((places.face, at), from..from + count, numbers.scramble);
+            for from in (0..self.directions).step_by(LANES) {
+                let count = (self.directions - from).min(LANES as u32);
+                let taken = (first.wrapping_add(from), count);
+                let met = self.look((places.face, at), taken, numbers.scramble);
                 result.inverse[lane] += share * met.inverse;
                 if met.lanes != 0 {
                     self.add(simd, &met, (direct, &mut *room), &mut sums);
@@ -96,13 +96,14 @@ impl<'a> Gather<'a> {
     fn look(
         &self,
         (face, at): (FaceId, DVec3),
-        numbers: std::ops::Range<u32>,
+        (first, count): (u32, u32),
         scramble: [u32; 2],
     ) -> Met {
         let normal = self.mesh.faces[face.index()].normal;
         let (tangent, bitangent) = normal.any_orthonormal_pair();
         let mut met = Met::default();
-        for (lane, number) in numbers.enumerate() {
+        for lane in 0..count as usize {
+            let number = first.wrapping_add(lane as u32);
             let [x, y, z] = raised(sobol(number, scramble));
             let ray = Ray::new(at, x * tangent + y * bitangent + z * normal);
             let hit = self

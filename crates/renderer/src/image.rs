@@ -34,6 +34,14 @@ impl Image {
         }
     }
 
+    /// Whether any pixel is not black.
+    pub fn shows_something(&self) -> bool {
+        self.pixels
+            .as_flattened()
+            .iter()
+            .any(|channel| *channel > 0.0)
+    }
+
     /// The sum of the channels, weighted.
     pub fn weighted(&self, weights: [f64; 3]) -> Values {
         let [r, g, b] = weights.map(|weight| weight as f32);

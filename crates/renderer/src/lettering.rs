@@ -10,6 +10,9 @@ use embedded_graphics::text::{Alignment, Baseline, Text, TextStyleBuilder};
 use std::convert::Infallible;
 
 const FONT: &MonoFont<'_> = &FONT_7X13;
+/// Beside pictures.
+pub(crate) const PAPER: [u8; 3] = [24, 24, 24];
+pub(crate) const INK: [u8; 3] = [225, 225, 225];
 /// From one line to the next.
 pub(crate) const LINE: u32 = 15;
 

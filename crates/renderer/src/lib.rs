@@ -41,7 +41,7 @@ pub use lines::Outlines;
 pub use params::ImageParams;
 pub use picture::{DeepPicture, Picture};
 pub use render::{Renderer, Shading, ShadingParams};
-pub use sheet::contact_sheet;
+pub use sheet::{contact_sheet, thumbnail_width};
 pub use tone::{Curve, Exposure, LUMINANCE, ToneMap, Transfer};
 
 /// Red, green, blue.

@@ -15,8 +15,8 @@ pub struct Outlines {
     width: u32,
     /// For each pixel, how much of the border of a patch lies in it, from 0 to 1.
     patches: Vec<f32>,
-    /// Whether its neighbourhood shows several faces.
-    faces: Vec<bool>,
+    /// Whether its neighbourhood shows several surfaces, or a crease of one.
+    edges: Vec<bool>,
 }
 
 /// Places along each edge of the square, two pixels wide, that is looked at for each pixel.
@@ -47,11 +47,11 @@ impl Outlines {
                 })
             })
             .collect();
-        let (patches, faces) = rows.into_iter().flatten().unzip();
+        let (patches, edges) = rows.into_iter().flatten().unzip();
         Outlines {
             width,
             patches,
-            faces,
+            edges,
         }
     }
 
@@ -62,16 +62,11 @@ impl Outlines {
         }
     }
 
-    /// Draws the lines along which numbers have some values. There are none across edges of faces.
-    pub fn draw_isolines(
-        &self,
-        picture: &mut Picture,
-        values: &Values,
-        levels: &[f64],
-        color: [u8; 3],
-    ) {
+    /// Draws the lines along which numbers have some values, light or dark as the picture is not. There are
+    /// none across edges of surfaces.
+    pub fn draw_isolines(&self, picture: &mut Picture, values: &Values, levels: &[f64]) {
         let last = [values.width - 1, values.height - 1];
-        let is_inner = |x: u32, y: u32| !self.faces[(y * self.width + x) as usize];
+        let is_inner = |x: u32, y: u32| !self.edges[(y * self.width + x) as usize];
         for y in 0..values.height {
             for x in 0..values.width {
                 let [left, right] = [x.saturating_sub(1), (x + 1).min(last[0])];
@@ -91,7 +86,8 @@ impl Outlines {
                         .map(|level| (here - *level as f32).abs() / slope);
                     let nearest = distances.fold(f32::INFINITY, f32::min);
                     let share = (1.0 - nearest).max(0.0);
-                    picture.mix((y * self.width + x) as usize, color, share);
+                    let index = (y * self.width + x) as usize;
+                    picture.mix(index, picture.contrast(index), share);
                 }
             }
         }
@@ -139,6 +135,9 @@ impl Kernel for Row<'_> {
     }
 }
 
+/// The cosine between normals below which an edge between faces of a mesh is a crease: that of 30
+/// degrees.
+const ALIKE: f64 = 0.866;
 /// No patch: a back, or nothing.
 const NO_PATCH: usize = usize::MAX;
 
@@ -160,9 +159,22 @@ impl View<'_> {
             .max()
             .unwrap_or(0);
         let others = 1.0 - most as f32 / patches.len() as f32;
-        let is_mixed = faces.iter().any(|face| *face != faces[0]);
+        let is_mixed = faces.iter().any(|&face| !self.are_alike(face, faces[0]));
         // Halved by a border in its middle, all of the pixel's share of it lies inside.
         ((2.0 * others).min(1.0), is_mixed)
+    }
+
+    /// Whether faces that are seen are of one smooth surface.
+    fn are_alike(&self, a: u32, b: u32) -> bool {
+        if a == b {
+            return true;
+        }
+        let face = |seen: u32| {
+            let seen = self.screen.faces.get(seen as usize)?;
+            Some(&self.mesh.faces[seen.id.index()])
+        };
+        let both = face(a).zip(face(b));
+        both.is_some_and(|(a, b)| a.surface == b.surface && a.normal.dot(b.normal) >= ALIKE)
     }
 
     /// The patch that is seen at a place.

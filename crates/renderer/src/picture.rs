@@ -53,6 +53,16 @@ impl Picture {
         }
     }
 
+    /// What can be seen on a pixel: white, or black.
+    pub(crate) fn contrast(&self, index: usize) -> [u8; 3] {
+        let channels = self.bytes[3 * index..3 * index + 3].iter();
+        let sum: u32 = channels
+            .zip([2, 6, 1])
+            .map(|(c, weight)| u32::from(*c) * weight)
+            .sum();
+        if sum > 9 * 150 { [0; 3] } else { [255; 3] }
+    }
+
     /// Mixes a colour into a pixel.
     pub(crate) fn mix(&mut self, index: usize, color: [u8; 3], share: f32) {
         for (byte, color) in self.bytes[3 * index..3 * index + 3].iter_mut().zip(color) {

@@ -57,6 +57,8 @@ impl<'a> Shader<'a> {
             Interpolant::new(mesh, with, &rest)
         };
         let gather = || Gather::new(mesh, fields, params.crease_angle, params.directions);
+        let gains = fields.gathered_gain.as_flattened();
+        let shows_gathered = gains.iter().any(|gain| *gain != 0.0);
         let is_exact = has(Shading::Exact) || has(Shading::Gathered);
         Shader {
             mesh,
@@ -65,7 +67,7 @@ impl<'a> Shader<'a> {
             smooth: has(Shading::Smooth).then(smooth),
             direct: is_exact.then(|| DirectLight::new(mesh, fields.sources)),
             indirect: has(Shading::Exact).then(indirect),
-            gather: has(Shading::Gathered).then(gather),
+            gather: (has(Shading::Gathered) && shows_gathered).then(gather),
         }
     }
 
@@ -151,7 +153,7 @@ impl<'a> Shader<'a> {
         for lane in (0..LANES).filter(|lane| places.lanes >> lane & 1 != 0) {
             let at = DVec3::from_array(places.points.map(|axis| axis[lane]));
             let weight = room.numbers.weights[lane];
-            let gain = self.fields.indirect_gain[local.number[lane] as usize];
+            let gain = self.fields.gathered_gain[local.number[lane] as usize];
             let gain = gain.map(|gain| weight * gain);
             room.spots[index].add(lane, at, gathered, gain);
         }

@@ -1,27 +1,36 @@
 //! Many pictures on one sheet.
 
-use crate::lettering::{Align, LINE, letter};
+use crate::lettering::{Align, INK, LINE, PAPER, letter};
 use crate::picture::Picture;
 use image::RgbImage;
 use image::imageops::thumbnail;
 
 const MARGIN: u32 = 12;
-const PAPER: [u8; 3] = [24, 24, 24];
-const INK: [u8; 3] = [225, 225, 225];
 
-/// The widest thumbnail.
+/// The widest thumbnail, and the widest sheet, in pixels.
 const THUMBNAIL: u32 = 320;
+const SHEET: u32 = 6400;
+
+/// How wide and high pictures may be so that so many fit on a sheet.
+pub fn thumbnail_width(pictures: usize) -> u32 {
+    let columns = (pictures as f64).sqrt().ceil() as u32;
+    (SHEET / columns.max(1)).clamp(1, THUMBNAIL)
+}
 
 impl Picture {
-    /// The same not wider than fits on a sheet.
-    pub fn thumbnail(&self) -> Picture {
-        if self.width <= THUMBNAIL {
+    /// The same, not wider or higher than this.
+    pub fn thumbnail(&self, most: u32) -> Picture {
+        let longest = self.width.max(self.height);
+        if longest <= most {
             return self.clone();
         }
-        let height = (u64::from(self.height) * u64::from(THUMBNAIL) / u64::from(self.width)) as u32;
+        let scaled = |edge: u32| {
+            let edge = u64::from(edge) * u64::from(most) / u64::from(longest);
+            (edge as u32).max(1)
+        };
         let image = RgbImage::from_raw(self.width, self.height, self.bytes.clone());
         let image = image.expect("the size is that of the picture");
-        let small = thumbnail(&image, THUMBNAIL, height.max(1));
+        let small = thumbnail(&image, scaled(self.width), scaled(self.height));
         Picture {
             width: small.width(),
             height: small.height(),
@@ -68,8 +77,12 @@ mod tests {
         assert_eq!(at(12 + 52 + 20, 12 + 57 + 15), 200);
         assert_eq!(at(12 + 104 + 20, 12 + 57 + 15), PAPER[0]);
         assert_eq!(contact_sheet(&[]).bytes.len(), 12 * 12 * 3);
-        let small = Picture::plain(1280, 720, [7, 8, 9]).thumbnail();
+        let small = Picture::plain(1280, 720, [7, 8, 9]).thumbnail(320);
         assert_eq!((small.width, small.height), (320, 180));
         assert_eq!(small.bytes[..3], [7, 8, 9]);
+        assert_eq!(
+            [1, 4, 401, 1_000_000].map(thumbnail_width),
+            [320, 320, 304, 6]
+        );
     }
 }

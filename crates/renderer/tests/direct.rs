@@ -61,7 +61,7 @@ fn shown(mesh: &Mesh, at: DVec3, from: DVec3) -> f64 {
         indirect: &dark,
         direct: &dark,
         direct_gain: &reflectance,
-        indirect_gain: &reflectance,
+        gathered_gain: &reflectance,
         visible: &vec![1.0; patches],
     };
     let eye = at + 0.01 * from.normalize();

@@ -75,7 +75,7 @@ fn a_furnace_is_evenly_bright() {
         emission: &of_all(e),
         direct: &of_all(rho * e),
         direct_gain: &of_all(rho),
-        indirect_gain: &of_all(rho),
+        gathered_gain: &of_all(rho),
     };
     for direction in [[0.2, 0.1, -1.0], [1.0, 0.3, 0.4], [-0.1, 1.0, -0.5]] {
         let found = seen(&mesh, &fields, &camera([0.4, 0.5, 0.6], direction), 3);
@@ -140,7 +140,7 @@ fn what_is_gathered_has_its_form_factor() {
             emission: &dark,
             direct: &dark,
             direct_gain: &vec![[9.0; 3]; patches],
-            indirect_gain: &vec![[0.8; 3]; patches],
+            gathered_gain: &vec![[0.8; 3]; patches],
         };
         let from = camera([0.0, 0.0, 0.01], [0.0, 0.0, -1.0]);
         let found = seen(&mesh, &fields, &from, 4096);
@@ -155,4 +155,55 @@ fn what_is_gathered_has_its_form_factor() {
             );
         }
     }
+}
+
+/// Gathered light, too, is the same for any number of threads.
+#[test]
+fn thread_counts_leave_no_trace() {
+    let mesh = cut(cube(), 3);
+    let patches = mesh.patches.len();
+    let varied = |k: usize| [k as f32 % 7.0, 1.0, 0.5 + k as f32 % 3.0];
+    let values: Vec<[f32; 3]> = (0..patches).map(varied).collect();
+    let (half, dark) = (vec![[0.5; 3]; patches], vec![[0.0; 3]; patches]);
+    let fields = Fields {
+        sources: &dark,
+        reflectance: &half,
+        indirect: &values,
+        visible: &vec![1.0; patches],
+        shown: &values,
+        emission: &dark,
+        direct: &dark,
+        direct_gain: &half,
+        gathered_gain: &half,
+    };
+    let params = ImageParams {
+        width: 33,
+        height: 20,
+        ..ImageParams::default()
+    };
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| {
+            let renderer = Renderer::new(
+                &mesh,
+                &fields,
+                &ShadingParams::default(),
+                &[Shading::Gathered],
+            );
+            let wide = Camera::new(
+                DVec3::new(0.3, 0.4, 0.5),
+                DVec3::new(0.5, 0.4, -0.3),
+                DVec3::Z,
+                90.0,
+                0.0,
+            );
+            renderer.render(&wide.unwrap(), &params, &|_| ())
+        })
+    };
+    let one = with(1);
+    assert!(one == with(3));
+    assert!(one[0].shows_something());
 }

@@ -85,7 +85,7 @@ fn isolines_lie_where_numbers_are_equal() {
     };
     let levels = [2.0, 10.0, 20.5, 30.25, 35.0];
     let outlines = outlines(1, None, Backs::Black);
-    let found = row(|picture| outlines.draw_isolines(picture, &values, &levels, WHITE));
+    let found = row(|picture| outlines.draw_isolines(picture, &values, &levels));
     let mut expected = vec![0; SIZE as usize];
     // Nothing at 2 and 35, beside the border.
     for (x, level) in [(10, 255), (20, 128), (21, 128), (30, 191), (31, 64)] {

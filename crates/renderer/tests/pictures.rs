@@ -54,7 +54,7 @@ fn with_fields<T>(radiosity: &[[f32; 3]], f: impl FnOnce(&Fields<'_>) -> T) -> T
         indirect: &same,
         direct: &same,
         direct_gain: &same,
-        indirect_gain: &same,
+        gathered_gain: &same,
         visible: &vec![1.0; radiosity.len()],
     })
 }
@@ -273,7 +273,7 @@ fn hidden_parts_do_not_darken_what_is_seen() {
             indirect: &dark,
             direct: &dark,
             direct_gain: &dark,
-            indirect_gain: &dark,
+            gathered_gain: &dark,
             visible: &visible,
         };
         let [_, smooth] = view(&mesh, &fields, DVec3::new(0.33, 0.0, 0.0), 0.28, 20);
@@ -300,7 +300,7 @@ fn materials_and_creases_keep_their_edges() {
         indirect: &radiosity,
         direct: &radiosity,
         direct_gain: &reflectance,
-        indirect_gain: &reflectance,
+        gathered_gain: &reflectance,
         visible: &[1.0; 128],
     };
     let [a, _, c, _] = square();

@@ -50,6 +50,12 @@ impl Scene {
         &self.materials[materials[input_face as usize]]
     }
 
+    /// The camera, or else that of the first view.
+    pub fn first_camera(&self) -> Option<Camera> {
+        let first_view = self.views.first().map(|view| view.camera);
+        self.camera.or(first_view)
+    }
+
     /// What a material emits with its light as bright as the scene has it.
     pub fn dimmed_emission(&self, material: &Material) -> [f64; 3] {
         let light = material.light.and_then(|light| self.lights.get(light));

@@ -22,7 +22,7 @@ pub(super) fn run(args: &CheckArgs, site: &Site) -> Result<(), Error> {
 
 /// What `check` says.
 fn check_lines(scene: &Scene, needs: &Needs) -> Vec<String> {
-    let camera = if scene.camera.is_some() || !scene.views.is_empty() {
+    let camera = if scene.first_camera().is_some() {
         ""
     } else {
         " (no camera: it cannot be rendered)"
@@ -39,7 +39,7 @@ fn check_lines(scene: &Scene, needs: &Needs) -> Vec<String> {
     ];
     lines.extend(views_line(scene));
     lines.extend(lights_line(scene));
-    if scene.camera.is_some() && scene.lights.is_empty() {
+    if scene.first_camera().is_some() && scene.lights.is_empty() {
         lines.push(indented(
             "warning: nothing emits light; pictures will be black",
         ));

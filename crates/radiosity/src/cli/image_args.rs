@@ -2,7 +2,7 @@
 
 use super::apply::set;
 use super::choices::{DirectArg, FilterArg, FormatArg, ShadingArg, ToneArg};
-use super::parse::{parse_angle, parse_exposure, parse_gamma, parse_size};
+use super::parse::{parse_angle, parse_directions, parse_exposure, parse_gamma, parse_size};
 use super::show_args::ShowArgs;
 use super::view_args::ViewArgs;
 use clap::Args;
@@ -77,9 +77,9 @@ pub struct DisplayArgs {
     pub direct: Option<DirectArg>,
     /// Look around from each sample for the light that is reflected more often, in N directions
     /// [default: 4]; light straight from emitters is exact then
-    #[arg(long, value_name = "N", num_args = 0..=1, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    #[arg(long, value_name = "N", num_args = 0..=1, value_parser = parse_directions, conflicts_with = "direct")]
     pub gather: Option<Option<u32>>,
-    /// The pictures to make, if --direct and --gather do not say it
+    /// The pictures to make, instead [default: constant,smooth]
     #[arg(
         long,
         value_enum,
@@ -142,11 +142,13 @@ impl DisplayArgs {
     /// The pictures that are asked for.
     pub(crate) fn shadings(&self) -> Vec<Shading> {
         let mut wanted = self.shading.clone();
+        if self.gather.is_some() {
+            wanted.push(ShadingArg::Gathered);
+        }
         if wanted.is_empty() {
-            wanted = match (self.gather, self.direct) {
-                (Some(_), _) => vec![ShadingArg::Gathered],
-                (None, Some(DirectArg::Exact)) => vec![ShadingArg::Exact],
-                (None, _) => vec![ShadingArg::Constant, ShadingArg::Smooth],
+            wanted = match self.direct {
+                Some(DirectArg::Exact) => vec![ShadingArg::Exact],
+                _ => vec![ShadingArg::Constant, ShadingArg::Smooth],
             };
         }
         wanted.sort();

@@ -10,7 +10,7 @@ use crate::pipeline::Quantity;
 use crate::settings::tone_map;
 use radiosity_geometry::Mesh;
 use radiosity_renderer::{ColorScale, Image, LUMINANCE, Shading, Values};
-use radiosity_scene::Scene;
+use radiosity_scene::{Mode, Scene};
 use std::f64::consts::PI;
 
 /// A quantity to show.
@@ -40,6 +40,13 @@ impl ShowArgs {
         let mut shows = self.show.clone();
         if shows.is_empty() && self.factors_of.is_none() {
             shows.push(ShowArg::Light);
+        }
+        if shows.contains(&ShowArg::Error) && scene.form_factors.mode != Mode::Accurate {
+            return Err(Error::Input(
+                "this scene's estimator does not know the errors of form factors\n   \
+                 = help: use --mode accurate"
+                    .to_owned(),
+            ));
         }
         let is_new = |k: &usize| !shows[..*k].contains(&shows[*k]);
         let new = (0..shows.len()).filter(is_new);
@@ -110,6 +117,11 @@ impl Look {
                 has_colors,
             }),
         }
+    }
+
+    /// Whether it is shown in false colours.
+    pub(super) fn is_number(&self) -> bool {
+        self.number.is_some()
     }
 
     /// The shadings that make sense of it, of those that are asked for.

@@ -18,6 +18,7 @@ mod print;
 mod reference;
 mod run;
 mod save;
+mod series;
 mod show_args;
 mod site;
 mod solver_args;

@@ -136,6 +136,21 @@ pub struct PatchName {
     pub cell: [u32; 2],
 }
 
+/// What a picture may be scaled to; beyond, single precision ends.
+pub(super) fn parse_top(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(top) if (1e-30..=1e30).contains(&top) => Ok(top),
+        _ => Err("expected a number between 1e-30 and 1e30".to_owned()),
+    }
+}
+
+pub(super) fn parse_directions(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(count) if (1..=4096).contains(&count) => Ok(count),
+        _ => Err("expected a number from 1 to 4096; a scene's name goes before it".to_owned()),
+    }
+}
+
 /// `floor:3,4`.
 pub(super) fn parse_patch(text: &str) -> Result<PatchName, String> {
     let known = text.rsplit_once(':').and_then(|(surface, cell)| {

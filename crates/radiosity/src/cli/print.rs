@@ -2,7 +2,7 @@
 
 use super::look::Number;
 use radiosity_renderer::{
-    ColorScale, DeepPicture, Image, Outlines, Picture, ToneMap, Transfer, with_legend,
+    ColorScale, DeepPicture, Exposure, Image, Outlines, Picture, ToneMap, Transfer, with_legend,
 };
 
 /// Which levels numbers have.
@@ -39,6 +39,28 @@ impl Palette {
         }
     }
 
+    /// What a file should say: of its numbers, and of the levels that stand for them.
+    pub(super) fn facts(&self) -> Vec<(&'static str, String)> {
+        match self {
+            Palette::Tones(tone) => {
+                let exposure = match tone.exposure {
+                    Exposure::Fixed(factor) => format!("{factor}"),
+                    Exposure::Automatic { .. } => "automatic".to_owned(),
+                };
+                vec![
+                    ("Quantity", "radiance".to_owned()),
+                    ("Unit", "W/m²/sr".to_owned()),
+                    ("Exposure", exposure),
+                ]
+            }
+            Palette::Colors(scale, number) => vec![
+                ("Quantity", number.title.to_owned()),
+                ("Unit", number.unit.clone()),
+                ("Brightest colour", format!("{}", scale.top())),
+            ],
+        }
+    }
+
     /// The curve that levels are made by.
     pub(super) fn transfer(&self) -> Transfer {
         match self {
@@ -57,7 +79,7 @@ impl Print<'_> {
                 && self.isolines
             {
                 let levels = scale.ticks();
-                outlines.draw_isolines(&mut picture, &number.of(self.image), &levels, LINES);
+                outlines.draw_isolines(&mut picture, &number.of(self.image), &levels);
             }
             if self.patch_lines {
                 outlines.draw(&mut picture, LINES, FAINT);
@@ -79,11 +101,11 @@ impl Print<'_> {
         }
     }
 
-    /// The numbers, and their unit.
-    pub(super) fn linear(&self) -> (Image, &str) {
+    /// The numbers.
+    pub(super) fn linear(&self) -> Image {
         match self.palette {
-            Palette::Tones(_) => (self.image.clone(), "W/m²/sr"),
-            Palette::Colors(_, number) => (number.linear(self.image), &number.unit),
+            Palette::Tones(_) => self.image.clone(),
+            Palette::Colors(_, number) => number.linear(self.image),
         }
     }
 }

@@ -116,11 +116,11 @@ fn picture(
     folder: &Path,
     terminal: &Terminal,
 ) -> Result<Json, Error> {
-    let camera = scene.camera.as_ref().ok_or(Error::NoCamera)?;
+    let camera = scene.first_camera().ok_or(Error::NoCamera)?;
     let (width, height) = (scene.image.width, scene.image.height);
     check_image(width, height)?;
     let of_mesh = |error| Error::of_mesh(scene, &error);
-    let mut tracer = Tracer::new(scene, camera, args.seed).map_err(of_mesh)?;
+    let mut tracer = Tracer::new(scene, &camera, args.seed).map_err(of_mesh)?;
     let start = Instant::now();
     let percent = trace(args, scene, &mut tracer, folder, terminal)?;
     let outputs = save(scene, &tracer, folder)?;

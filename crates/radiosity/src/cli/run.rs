@@ -11,7 +11,7 @@ use super::reference;
 use super::site::Site;
 use super::solver_args::SolveArgs;
 use super::terminal::{Terminal, tell};
-use crate::artifact::Sources;
+use crate::artifact::{How, Sources};
 use crate::error::Error;
 use crate::export::radiosity_table;
 use crate::pipeline::{PatchLight, Pipeline};
@@ -67,7 +67,7 @@ fn solve(args: &SolveCommand, site: &Site, sources: Sources) -> Result<(), Error
         let store = store(&args.estimate, site);
         let mut pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
         let mut report = Report::new(&scene, pipeline.mesh(), &terminal);
-        let light = light(&mut pipeline, &args.solve, sources, &mut report)?;
+        let (light, _) = light(&mut pipeline, &args.solve, sources, &mut report)?;
         if let Some(path) = &args.export {
             write(
                 path,
@@ -85,25 +85,26 @@ fn solve(args: &SolveCommand, site: &Site, sources: Sources) -> Result<(), Error
     })
 }
 
-/// What patches shine with, with each stage reported as soon as it is done.
+/// What patches shine with, with each stage reported as soon as it is done; and how the form factors were
+/// come by, if they were.
 pub(super) fn light(
     pipeline: &mut Pipeline<'_>,
     args: &SolveArgs,
     sources: Sources,
     report: &mut Report<'_>,
-) -> Result<PatchLight, Error> {
+) -> Result<(PatchLight, Option<How>), Error> {
     if let Some(percent) = args.preview {
         let start = Instant::now();
         let preview = pipeline.preview(percent / 100.0)?;
         report.preview(&preview, start.elapsed());
-        return Ok(preview.light);
+        return Ok((preview.light, None));
     }
     args.start(pipeline)?;
     let solved = pipeline.solution_after(sources, &mut |origin, rows| {
         report.form_factors(origin, rows, pipeline);
     })?;
     report.solution(&solved);
-    Ok(solved.light)
+    Ok((solved.light, Some(solved.form_factors.how)))
 }
 
 pub(super) fn store(args: &EstimateArgs, site: &Site) -> Option<Store> {

@@ -10,15 +10,16 @@ use crate::settings::estimator;
 #[cfg(feature = "openexr")]
 use radiosity_renderer::encode_exr;
 use radiosity_renderer::{
-    Metadata, Picture, PictureFormat, Transfer, encode, encode_deep_png, encode_hdr, encode_pfm,
+    Picture, PictureFormat, Transfer, encode, encode_deep_png, encode_hdr, encode_pfm,
 };
+use radiosity_scene::{Light, Scene};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Where pictures go, and what they say of themselves.
 pub(super) struct Folder<'a> {
     path: &'a Path,
-    formats: &'a [FormatArg],
+    formats: Vec<FormatArg>,
     scene: String,
     metadata: Vec<(&'static str, String)>,
     /// The files that are written, by their names in reports.
@@ -41,14 +42,19 @@ impl<'a> Folder<'a> {
             pipeline.solution_key().to_string()
         };
         let version = concat!("radiosity ", env!("CARGO_PKG_VERSION"));
+        let is_new = |k: &usize| !formats[..*k].contains(&formats[*k]);
         Folder {
             path,
-            formats,
+            formats: (0..formats.len())
+                .filter(is_new)
+                .map(|k| formats[k])
+                .collect(),
             scene: scene.name.clone(),
             metadata: vec![
                 ("Software", version.to_owned()),
                 ("Scene", scene.name.clone()),
                 ("Solution", solution),
+                ("Lights", dimmed_lights(scene)),
                 (
                     "Settings",
                     format!(
@@ -64,14 +70,9 @@ impl<'a> Folder<'a> {
     /// Writes a picture in all formats. The first format's file is called as the picture, others
     /// have the format appended.
     pub(super) fn save(&mut self, name: &str, print: &Print<'_>) -> Result<(), Error> {
-        for index in 0..self.formats.len() {
-            let format = self.formats[index];
+        for (index, &format) in self.formats.iter().enumerate() {
             let (label, ending) = format.label_and_ending();
             let path = self.path.join(format!("{}-{name}.{ending}", self.scene));
-            // The same format twice is the same file once.
-            if self.written.values().any(|known| *known == path) {
-                continue;
-            }
             write(&path, &self.encoded(name, print, format))?;
             let name = if index == 0 {
                 name.to_owned()
@@ -84,38 +85,43 @@ impl<'a> Folder<'a> {
     }
 
     /// Writes a picture of pictures, as PNG.
-    pub(super) fn save_sheet(&mut self, sheet: &Picture) -> Result<(), Error> {
+    pub(super) fn save_sheet(&mut self, sheet: &Picture, transfer: Transfer) -> Result<(), Error> {
         let path = self.path.join(format!("{}-sheet.png", self.scene));
-        let format = PictureFormat::Png(Transfer::Srgb);
-        write(&path, &encode(sheet, format, &self.metadata))?;
+        let bytes = encode(sheet, PictureFormat::Png(transfer), &self.metadata);
+        write(&path, &bytes)?;
         self.written.insert("sheet".to_owned(), path);
         Ok(())
     }
 
     fn encoded(&self, name: &str, print: &Print<'_>, format: FormatArg) -> Vec<u8> {
-        let shown = |unit: &str| {
-            let own = [("Picture", name.to_owned()), ("Unit", unit.to_owned())];
-            [&self.metadata[..], &own].concat()
-        };
-        let levels = |format| encode(&print.screen(), format, &shown("levels of a screen"));
-        let linear = |encode: fn(&radiosity_renderer::Image, &Metadata<'_>) -> Vec<u8>| {
-            let (image, unit) = print.linear();
-            encode(&image, &shown(unit))
-        };
+        let own = [("Picture", name.to_owned())];
+        let metadata = [&self.metadata[..], &own, &print.palette.facts()].concat();
+        let levels = |format| encode(&print.screen(), format, &metadata);
         let transfer = print.palette.transfer();
         match format {
             FormatArg::Ppm => levels(PictureFormat::Ppm),
             FormatArg::PlainPpm => levels(PictureFormat::PlainPpm),
             FormatArg::Png => levels(PictureFormat::Png(transfer)),
-            FormatArg::Png16 => {
-                let metadata = shown("levels of a screen");
-                encode_deep_png(&print.deep_screen(), transfer, &metadata)
-            }
-            FormatArg::Pfm => linear(|image, _| encode_pfm(image)),
-            FormatArg::Hdr => linear(encode_hdr),
+            FormatArg::Png16 => encode_deep_png(&print.deep_screen(), transfer, &metadata),
+            FormatArg::Pfm => encode_pfm(&print.linear()),
+            FormatArg::Hdr => encode_hdr(&print.linear(), &metadata),
             #[cfg(feature = "openexr")]
-            FormatArg::Exr => linear(encode_exr),
+            FormatArg::Exr => encode_exr(&print.linear(), &metadata),
         }
+    }
+}
+
+/// The lights that are not as their materials say, each with its factors.
+fn dimmed_lights(scene: &Scene) -> String {
+    let of_light = |light: &Light| {
+        let [r, g, b] = light.dimming();
+        (light.dimming() != [1.0; 3]).then(|| format!("{} times {r} {g} {b}", light.name))
+    };
+    let dimmed: Vec<String> = scene.lights.iter().filter_map(of_light).collect();
+    if dimmed.is_empty() {
+        "as their materials say".to_owned()
+    } else {
+        dimmed.join(", ")
     }
 }
 

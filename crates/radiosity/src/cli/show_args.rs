@@ -1,7 +1,7 @@
 //! What pictures show, on the command line.
 
 use super::choices::ShowArg;
-use super::parse::{PatchName, parse_patch, parse_positive};
+use super::parse::{PatchName, parse_patch, parse_positive, parse_top};
 use clap::Args;
 
 /// What pictures show.
@@ -16,9 +16,9 @@ pub struct ShowArgs {
     /// exported tables
     #[arg(long, value_name = "SURFACE:A,B", value_parser = parse_patch)]
     pub factors_of: Option<PatchName>,
-    /// The number that has the brightest false colour [default: a round one that 2 % of the picture
-    /// exceed]
-    #[arg(long, value_name = "X", value_parser = parse_positive, allow_negative_numbers = true)]
+    /// The number that has the brightest false colour [default: a round one that 2 % of what the first
+    /// picture shows exceed]
+    #[arg(long, value_name = "X", value_parser = parse_top, allow_negative_numbers = true)]
     pub top: Option<f64>,
     /// False colours over three decades, not from 0
     #[arg(long)]

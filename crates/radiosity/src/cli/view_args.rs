@@ -14,7 +14,8 @@ pub struct ViewArgs {
     /// The scene's views by their names, `camera` for its first one, or all
     #[arg(long, value_name = "NAME,..|all", value_delimiter = ',')]
     pub views: Vec<String>,
-    /// Turn once around what the camera looks at, in N numbered pictures
+    /// Turn once around what is in the middle of the picture, as far away as the middle of the scene, in N
+    /// numbered pictures for each view
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9999))]
     pub turntable: Option<u32>,
     /// Go along a smooth path through the views (all, if not told otherwise), in N numbered pictures
@@ -29,6 +30,7 @@ pub struct ViewArgs {
 }
 
 /// A camera, and what its pictures are called; those of the scene's first one are not.
+#[derive(Clone)]
 pub(super) struct Shot {
     pub(super) name: Option<String>,
     pub(super) camera: Camera,
@@ -51,20 +53,15 @@ impl ViewArgs {
     /// All cameras, in order.
     pub(super) fn shots(&self, scene: &Scene, mesh: &Mesh) -> Result<Vec<Shot>, Error> {
         let wanted = self.wanted(scene)?;
-        let frames = |name: &str, cameras: Vec<Camera>| {
-            let frame = |(k, camera): (usize, Camera)| Shot {
-                name: Some(format!("{name}-{:04}", k + 1)),
-                camera,
-            };
-            cameras.into_iter().enumerate().map(frame).collect()
-        };
         if let Some(count) = self.turntable {
             let bounds = mesh.bounds();
             let center = 0.5 * (bounds.min + bounds.max);
-            return Ok(frames(
-                "turntable",
-                wanted[0].camera.turntable(center, count),
-            ));
+            let turn = |shot: &Shot| {
+                let view = shot.name.as_ref().map(|name| format!("{name}-"));
+                let name = format!("{}turntable", view.unwrap_or_default());
+                frames(name, shot.camera.turntable(center, count))
+            };
+            return Ok(wanted.iter().flat_map(turn).collect());
         }
         if let Some(count) = self.path {
             let stations: Vec<Camera> = wanted.iter().map(|shot| shot.camera).collect();
@@ -79,7 +76,7 @@ impl ViewArgs {
                     "the camera cannot look on its way from view to view: {error}\n   = help: add a view where it turns"
                 ))
             })?;
-            return Ok(frames("path", path));
+            return Ok(frames("path".to_owned(), path).collect());
         }
         Ok(wanted)
     }
@@ -98,9 +95,6 @@ impl ViewArgs {
         if all.is_empty() {
             return Err(Error::NoCamera);
         }
-        if self.views.iter().any(|name| name == ALL_VIEWS) {
-            return Ok(all);
-        }
         if self.views.is_empty() {
             if self.path.is_none() {
                 all.truncate(1);
@@ -110,7 +104,7 @@ impl ViewArgs {
         let called = |shot: &Shot| shot.name.clone().unwrap_or(FIRST_VIEW.to_owned());
         let known: Vec<String> = all.iter().map(called).collect();
         let mut wanted = Vec::new();
-        for name in &self.views {
+        for name in self.views.iter().filter(|name| *name != ALL_VIEWS) {
             let Some(index) = known.iter().position(|known| known == name) else {
                 let help = suggestion(name, known.iter().map(String::as_str));
                 return Err(Error::Input(format!(
@@ -118,12 +112,22 @@ impl ViewArgs {
                     help.unwrap_or_default()
                 )));
             };
-            let Shot { name, camera } = &all[index];
-            wanted.push(Shot {
-                name: name.clone(),
-                camera: *camera,
-            });
+            if !wanted.contains(&index) {
+                wanted.push(index);
+            }
         }
-        Ok(wanted)
+        if self.views.iter().any(|name| name == ALL_VIEWS) {
+            return Ok(all);
+        }
+        Ok(wanted.into_iter().map(|index| all[index].clone()).collect())
     }
+}
+
+/// Numbered pictures.
+fn frames(name: String, cameras: Vec<Camera>) -> impl Iterator<Item = Shot> {
+    let frame = move |(camera, k): (Camera, u32)| Shot {
+        name: Some(format!("{name}-{k:04}")),
+        camera,
+    };
+    cameras.into_iter().zip(1..).map(frame)
 }

@@ -11,19 +11,34 @@ use crate::settings;
 use radiosity_cache::{Id, Miss, Store};
 use radiosity_form_factors::FormFactors;
 use radiosity_matrix::SymmetricMatrix;
+use std::sync::OnceLock;
 use std::time::Instant;
 
 impl Pipeline<'_> {
     /// Stage 2: the form factors.
     pub fn form_factors(&self, sources: Sources) -> Result<FormFactorsMade, Error> {
-        if !self.scene.form_factors.closure {
-            return self.estimated(sources);
+        let made = if self.scene.form_factors.closure {
+            let id = self.form_factors_id();
+            self.obtained(&id, sources, |store| {
+                let raw = self.estimated(sources)?.form_factors;
+                closed(&self.job(), &raw, store, &id)
+            })
+        } else {
+            self.estimated(sources)
+        }?;
+        if let Some(kept) = &self.kept {
+            // Copies share the numbers; those that were kept before are the same.
+            let _ = kept.set(made.form_factors.clone());
         }
-        let id = self.form_factors_id();
-        self.obtained(&id, sources, |store| {
-            let raw = self.estimated(sources)?.form_factors;
-            closed(&self.job(), &raw, store, &id)
-        })
+        Ok(made)
+    }
+
+    /// The form factors that were kept, or else made.
+    pub(super) fn known_form_factors(&self) -> Result<FormFactors, Error> {
+        match self.kept.as_ref().and_then(OnceLock::get) {
+            Some(kept) => Ok(kept.clone()),
+            None => Ok(self.form_factors(Sources::Cached)?.form_factors),
+        }
     }
 
     /// The form factors as they are estimated.

@@ -2,7 +2,6 @@
 
 use super::visible::exchanging;
 use super::{PatchLight, Pipeline};
-use crate::artifact::Sources;
 use crate::error::Error;
 use crate::observer::Stage;
 use crate::resources::check_image;
@@ -28,6 +27,16 @@ pub enum Quantity {
     FactorsFrom(usize),
 }
 
+impl Quantity {
+    /// Whether form factors must be known to show it.
+    pub fn needs_factors(self) -> bool {
+        match self {
+            Quantity::Radiosity | Quantity::Direct | Quantity::Indirect => false,
+            Quantity::Irradiance | Quantity::Error | Quantity::FactorsFrom(_) => true,
+        }
+    }
+}
+
 /// A quantity on all patches, and the light that makes it; see [`Fields`].
 #[derive(Clone, Debug)]
 pub struct Shown {
@@ -39,22 +48,21 @@ pub struct Shown {
     emission: Vec<[f32; 3]>,
     direct: Vec<[f32; 3]>,
     direct_gain: Vec<[f32; 3]>,
-    indirect_gain: Vec<[f32; 3]>,
+    gathered_gain: Vec<[f32; 3]>,
 }
 
 impl Pipeline<'_> {
     /// Pictures of what patches shine with as the scene's first camera sees it, by each of some
     /// shadings, in that order.
     pub fn pictures(&self, light: &PatchLight, shadings: &[Shading]) -> Result<Vec<Image>, Error> {
-        let camera = self.scene.camera.as_ref().ok_or(Error::NoCamera)?;
+        let camera = self.scene.first_camera().ok_or(Error::NoCamera)?;
         let shown = self.shown(light, Quantity::Radiosity)?;
-        self.look(&self.renderer(&shown, shadings), camera)
+        self.look(&self.renderer(&shown, shadings), &camera)
     }
 
-    /// A quantity on all patches. What goes back to form factors takes them from the cache where
-    /// possible.
+    /// A quantity on all patches. What goes back to form factors takes those that were kept, or from the
+    /// cache where possible.
     pub fn shown(&self, light: &PatchLight, quantity: Quantity) -> Result<Shown, Error> {
-        let factors = || Ok::<_, Error>(self.form_factors(Sources::Cached)?.form_factors);
         let all = self.all_light(light);
         let patches = all.value.len();
         let nothing = || vec![[0.0; 3]; patches];
@@ -62,7 +70,7 @@ impl Pipeline<'_> {
             Quantity::Radiosity => all,
             Quantity::Direct => Shown {
                 value: difference(&all.value, &all.indirect),
-                indirect_gain: nothing(),
+                gathered_gain: nothing(),
                 ..all
             },
             Quantity::Indirect => Shown {
@@ -73,23 +81,23 @@ impl Pipeline<'_> {
                 ..all
             },
             Quantity::Irradiance => {
-                let factors = factors()?;
+                let factors = self.known_form_factors()?;
                 Shown {
                     value: irradiance(&factors, &self.of_elements(light), &all.visible),
                     direct: irradiance(&factors, &all.sources, &all.visible),
                     emission: nothing(),
                     direct_gain: vec![[1.0; 3]; patches],
-                    indirect_gain: vec![[1.0; 3]; patches],
+                    gathered_gain: vec![[1.0; 3]; patches],
                     ..all
                 }
             }
             Quantity::Error => {
-                let factors = factors()?;
+                let factors = self.known_form_factors()?;
                 let errors = factors.rows.iter().map(|row| row.error);
                 let errors: Option<Vec<f64>> = errors.collect();
                 table(errors.ok_or_else(no_errors)?)
             }
-            Quantity::FactorsFrom(patch) => table(factors()?.row(patch)),
+            Quantity::FactorsFrom(patch) => table(self.known_form_factors()?.row(patch)),
         })
     }
 
@@ -107,7 +115,7 @@ impl Pipeline<'_> {
             emission,
             direct: light.direct.clone(),
             direct_gain: reflectance.clone(),
-            indirect_gain: reflectance.clone(),
+            gathered_gain: reflectance.clone(),
             reflectance,
         }
     }
@@ -169,7 +177,7 @@ impl Shown {
             emission: &self.emission,
             direct: &self.direct,
             direct_gain: &self.direct_gain,
-            indirect_gain: &self.indirect_gain,
+            gathered_gain: &self.gathered_gain,
         }
     }
 }
@@ -186,7 +194,7 @@ fn table(values: Vec<f64>) -> Shown {
         emission: nothing.clone(),
         direct: nothing.clone(),
         direct_gain: nothing.clone(),
-        indirect_gain: nothing,
+        gathered_gain: nothing,
     }
 }
 
