@@ -50,9 +50,8 @@ enum Standing {
 /// The most faces that are cut out one by one.
 const MOST_CUT: usize = 48;
 /// Points on an emitter to which segments are tried where more are in the way: from each sample, of
-/// which a pixel has many, and from each place that is seen from there, of which there are far more.
-pub(crate) const FROM_SAMPLES: u32 = 8;
-pub(crate) const FROM_ELSEWHERE: u32 = 1;
+/// which a pixel has many.
+const POINTS: u32 = 8;
 
 /// Eight points of patches, with their normals.
 pub(crate) struct Points<F> {
@@ -60,8 +59,17 @@ pub(crate) struct Points<F> {
     pub(crate) at: [F; 3],
     pub(crate) normals: [F; 3],
     pub(crate) lanes: u8,
-    /// To how many points of an emitter segments are tried, where too much is in the way.
-    pub(crate) segments: u32,
+    pub(crate) segments: Segments,
+}
+
+/// To which points of an emitter segments are tried, where too much is in the way.
+#[derive(Clone, Copy)]
+pub(crate) enum Segments {
+    /// The samples of a pixel share a sequence, which this scrambles; the number is that of the sample
+    /// in the first lane.
+    Shared([u32; 2], u32),
+    /// To a point that depends on the place alone.
+    Single,
 }
 
 impl<'a> DirectLight<'a> {
@@ -116,12 +124,10 @@ impl<'a> DirectLight<'a> {
                     Standing::Crowded => {
                         let face = self.mesh.patches[patch].face;
                         let point = (vector(&at), vector(&normals));
-                        factors[lane] = self.crowded_factor(
-                            emitter,
-                            face,
-                            point,
-                            (points.segments, &mut *room),
-                        ) as f32;
+                        let whole = self.cut_factor(emitter, &[], point, room);
+                        let seen =
+                            self.seen_share(emitter, face, point, points.ends(lane, point.0));
+                        factors[lane] = (whole * seen) as f32;
                     }
                 }
             }
@@ -225,27 +231,39 @@ impl<'a> DirectLight<'a> {
     }
 }
 
+impl<F: Float<f64>> Points<F> {
+    /// Where segments from a lane end, in coordinates of an emitter.
+    #[inline(always)]
+    fn ends(&self, lane: usize, at: DVec3) -> impl Iterator<Item = DVec2> + use<F> {
+        let (scramble, first, count) = match self.segments {
+            Segments::Shared(scramble, sample) => {
+                let first = sample.wrapping_add(lane as u32).wrapping_mul(POINTS);
+                (scramble, first, POINTS)
+            }
+            Segments::Single => {
+                let bits = at.to_array().map(f64::to_bits);
+                let hash = bits.into_iter().fold(0, |hash, bits| mix(hash ^ bits));
+                ([hash as u32, (hash >> 32) as u32], 0, 1)
+            }
+        };
+        (0..count).map(move |k| sobol(first.wrapping_add(k), scramble))
+    }
+}
+
 impl DirectLight<'_> {
-    /// The factor without anything in the way, times the share of points that are seen, weighted as the
-    /// light from them would be (Heitz, Hill & McGuire, "Combining Analytic Direct Illumination and
-    /// Stochastic Shadows", 2018). Which points depends on the place alone.
-    fn crowded_factor(
+    /// The share of points of an emitter that are seen, weighted as the light from them would be: the
+    /// factor without anything in the way times that is the factor (Heitz, Hill & McGuire, "Combining
+    /// Analytic Direct Illumination and Stochastic Shadows", 2018).
+    fn seen_share(
         &self,
         emitter: &Emitter,
         face: FaceId,
         (at, normal): (DVec3, DVec3),
-        (segments, room): (u32, &mut Cutting),
+        ends: impl Iterator<Item = DVec2>,
     ) -> f64 {
-        let whole = self.cut_factor(emitter, &[], (at, normal), room);
-        if whole == 0.0 {
-            return 0.0;
-        }
-        let bits = at.to_array().map(f64::to_bits);
-        let hash = bits.into_iter().fold(0, |hash, bits| mix(hash ^ bits));
-        let scramble = [hash as u32, (hash >> 32) as u32];
         let (mut all, mut visible) = (0.0, 0.0);
-        for k in 0..segments {
-            let point = emitter.point(sobol(k, scramble));
+        for end in ends {
+            let point = emitter.point(end);
             let to = point - at;
             let cosines = normal.dot(to).max(0.0) * -emitter.normal.dot(to).min(0.0);
             let weight = cosines / to.length_squared().powi(2);
@@ -254,11 +272,7 @@ impl DirectLight<'_> {
                 visible += weight;
             }
         }
-        if all > 0.0 {
-            whole * visible / all
-        } else {
-            0.0
-        }
+        if all > 0.0 { visible / all } else { 0.0 }
     }
 }
 

@@ -7,7 +7,7 @@
 //! irradiance is the mean of the radiosities that they meet.
 
 use crate::Rgb;
-use crate::direct::{Cutting, DirectLight, FROM_ELSEWHERE, Points};
+use crate::direct::{Cutting, DirectLight, Points, Segments};
 use crate::fields::Fields;
 use crate::interpolate::{Interpolant, Places};
 use crate::samples::sobol;
@@ -145,7 +145,7 @@ impl<'a> Gather<'a> {
             at: [simd.f64(x), simd.f64(y), simd.f64(z)],
             normals: [simd.f64(u), simd.f64(v), simd.f64(w)],
             lanes: met.lanes,
-            segments: FROM_ELSEWHERE,
+            segments: Segments::Single,
         };
         let irradiance = direct.irradiance(simd, &points, room);
         for c in 0..3 {

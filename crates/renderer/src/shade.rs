@@ -1,7 +1,7 @@
 //! The radiosity that a sample shows, by each shading.
 
 use crate::Rgb;
-use crate::direct::{Cutting, DirectLight, FROM_SAMPLES, Points};
+use crate::direct::{Cutting, DirectLight, Points, Segments};
 use crate::fields::Fields;
 use crate::gather::Gather;
 use crate::interpolate::{Interpolant, Local, Places};
@@ -180,7 +180,7 @@ impl<'a> Shader<'a> {
             at: [simd.f64(x), simd.f64(y), simd.f64(z)],
             normals: normal.to_array().map(|axis| simd.splat_f64(axis)),
             lanes: places.lanes,
-            segments: FROM_SAMPLES,
+            segments: Segments::Shared(room.numbers.scramble, room.numbers.first),
         };
         let irradiance = direct.irradiance(simd, &points, &mut room.cutting);
         let fields = &self.fields;
