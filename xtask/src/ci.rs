@@ -5,7 +5,7 @@ use std::process::{Command, ExitCode};
 use std::time::Instant;
 
 /// What a change must pass, in the order of what fails fastest.
-const STEPS: [(&str, &[&str]); 5] = [
+const STEPS: [(&str, &[&str]); 6] = [
     ("format", &["fmt", "--all", "--check"]),
     (
         "lints",
@@ -26,6 +26,10 @@ const STEPS: [(&str, &[&str]); 5] = [
             "--no-deps",
             "--document-private-items",
         ],
+    ),
+    (
+        "no features",
+        &["check", "--package", "radiosity", "--no-default-features"],
     ),
     ("tests", &["test", "--workspace"]),
     (

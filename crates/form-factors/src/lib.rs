@@ -28,6 +28,7 @@ mod exchange;
 mod far;
 mod fixed;
 mod gauss;
+mod hidden;
 mod lines;
 mod lumped;
 mod monte_carlo;

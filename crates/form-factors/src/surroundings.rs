@@ -4,6 +4,7 @@
 //! patch sees.
 
 use crate::blocker::{Blocker, Plane};
+use crate::hidden::{is_suspicious, visible_share};
 use crate::obstacles::Obstacles;
 use crate::random::Stream;
 use crate::target::{Points, Target, dot, height, points};
@@ -27,11 +28,6 @@ const CLOSE_LOOK: Effort = Effort {
     rays: 256,
     cells: 8,
 };
-/// Where backs are more than this share of what a point sees, it lies inside of something, or right under
-/// it. Under a low table that is open at its sides less is seen of backs, and some light arrives.
-const HIDDEN: f64 = 0.95;
-/// Where they are more than this in a cell of the first look, a part of it may be hidden.
-const SUSPICIOUS: f64 = 0.6;
 /// Tells these shifts from those of pairs of patches.
 const SEED: u64 = 1;
 /// So many faces are tried in turn; more are found by a tree.
@@ -72,14 +68,13 @@ pub(crate) fn look_around(mesh: &Mesh, obstacles: &Obstacles, index: usize) -> S
         })
     };
     let sums = look(FIRST_LOOK);
-    let is_open = |[all, backs]: &[f64; 2]| *backs < SUSPICIOUS * all;
-    let visible = if sums.cells.iter().all(is_open) {
-        1.0
-    } else {
-        visible_share(&look(CLOSE_LOOK).cells)
-    };
     let total = |lanes: &[f64; LANES]| lanes.iter().sum::<f64>();
     let all = total(&sums.all);
+    let visible = if is_suspicious(&sums.cells, total(&sums.backs) / all) {
+        visible_share(&look(CLOSE_LOOK).cells)
+    } else {
+        1.0
+    };
     let found = std::array::from_fn(|lane| sums.backs[lane] + sums.background[lane]);
     let (_, scatter) = ratio(&found, &sums.all);
     // What is smaller than the share of one ray may have gone unseen.
@@ -90,41 +85,6 @@ pub(crate) fn look_around(mesh: &Mesh, obstacles: &Obstacles, index: usize) -> S
         error: scatter.max(unseen),
         visible,
     }
-}
-
-/// The visible share of a square of cells, by the weights of their rays. A cell beside a hidden one may
-/// be hidden in part, and then sees more of backs than cells elsewhere do.
-fn visible_share(cells: &[[f64; 2]]) -> f64 {
-    let edge = cells.len().isqrt();
-    let is_hidden = |cell: usize| cells[cell][1] > HIDDEN * cells[cell][0];
-    let is_beside_hidden = |cell: usize| {
-        let around = |k: usize| k.saturating_sub(1)..(k + 2).min(edge);
-        let (i, j) = (cell / edge, cell % edge);
-        around(i).any(|i| around(j).any(|j| is_hidden(edge * i + j)))
-    };
-    let sum = |of: &mut dyn Iterator<Item = usize>| {
-        of.fold([0.0; 2], |[all, backs], cell| {
-            [all + cells[cell][0], backs + cells[cell][1]]
-        })
-    };
-    let [clear, clear_backs] = sum(&mut (0..cells.len()).filter(|&k| !is_beside_hidden(k)));
-    let usual = if clear > 0.0 {
-        clear_backs / clear
-    } else {
-        0.0
-    };
-    let visible = |cell: usize| -> f64 {
-        let [all, backs] = cells[cell];
-        if !is_beside_hidden(cell) {
-            all
-        } else if is_hidden(cell) {
-            0.0
-        } else {
-            all * ((1.0 - backs / all) / (1.0 - usual)).clamp(0.0, 1.0)
-        }
-    };
-    let [whole, _] = sum(&mut (0..cells.len()));
-    (0..cells.len()).map(visible).sum::<f64>() / whole
 }
 
 /// The walls in front of a patch, unless there are too many in the scene.

@@ -1,6 +1,6 @@
 //! Numbers as colours: which number has which, and the legend that says so.
 
-use crate::image::Values;
+use crate::image::{Values, percentile};
 use crate::lettering::{Align, INK, LINE, PAPER, letter, width_of};
 use crate::picture::Picture;
 use colorous::VIRIDIS;
@@ -44,13 +44,9 @@ impl ColorScale {
     /// A round number that few of some numbers exceed: the top of a scale for them.
     pub fn top_for(values: &Values) -> f64 {
         let numbers = values.values.iter().copied();
-        let mut lit: Vec<f32> = numbers.filter(|v| *v > 0.0 && v.is_finite()).collect();
-        if lit.is_empty() {
+        let Some(high) = percentile(numbers, BELOW_TOP).map(f64::from) else {
             return 1.0;
-        }
-        let index = (BELOW_TOP * (lit.len() - 1) as f64).round() as usize;
-        let (_, high, _) = lit.select_nth_unstable_by(index, f32::total_cmp);
-        let high = f64::from(*high);
+        };
         let unit = 10f64.powf(high.log10().floor());
         let round = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0].map(|step| step * unit);
         // A number that is round already must not be rounded up for its last bit.

@@ -5,7 +5,7 @@ mod curve;
 mod transfer;
 
 use crate::Rgb;
-use crate::image::Image;
+use crate::image::{Image, percentile};
 use crate::picture::{DeepPicture, Picture};
 use crate::samples::mix;
 pub use curve::Curve;
@@ -50,15 +50,9 @@ impl Exposure {
     fn factor(self, image: &Image) -> f32 {
         match self {
             Exposure::Fixed(factor) => factor as f32,
-            Exposure::Automatic { percentile } => {
+            Exposure::Automatic { percentile: share } => {
                 let luminances = image.pixels.iter().map(|pixel| luminance(*pixel));
-                let mut lit: Vec<f32> = luminances.filter(|l| *l > 0.0 && l.is_finite()).collect();
-                if lit.is_empty() {
-                    return 1.0;
-                }
-                let index = (percentile * (lit.len() - 1) as f64).round() as usize;
-                let (_, bright, _) = lit.select_nth_unstable_by(index, f32::total_cmp);
-                1.0 / *bright
+                percentile(luminances, share).map_or(1.0, |bright| 1.0 / bright)
             }
         }
     }

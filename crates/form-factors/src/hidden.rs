@@ -1,0 +1,52 @@
+//! Which part of a patch is hidden, by what rays from its cells have met: of each cell, the weights of
+//! all rays and of those that met backs.
+
+/// Where backs are more than this share of what a point sees, it lies inside of something, or right under
+/// it. Under a low table that is open at its sides less is seen of backs, and some light arrives.
+const HIDDEN: f64 = 0.95;
+/// Where they are more than this in a cell of the first look, it may be hidden.
+const SUSPICIOUS: f64 = 0.9;
+/// And a part of it, where they are more than this, and twice what they are in all cells.
+const PARTLY_SUSPICIOUS: f64 = 0.6;
+
+/// Whether cells of which a patch sees backs by so much on average tell of a hidden part.
+pub(crate) fn is_suspicious(cells: &[[f64; 2]], mean: f64) -> bool {
+    let shares = cells.iter().map(|[all, backs]| backs / all);
+    let most = shares.fold(0.0, f64::max);
+    most > SUSPICIOUS || most > PARTLY_SUSPICIOUS && most > 2.0 * mean
+}
+
+/// The visible share of a square of cells, by the weights of their rays. A cell beside a hidden one may
+/// be hidden in part, and then sees more of backs than cells elsewhere do.
+pub(crate) fn visible_share(cells: &[[f64; 2]]) -> f64 {
+    let edge = cells.len().isqrt();
+    let is_hidden = |cell: usize| cells[cell][1] > HIDDEN * cells[cell][0];
+    let is_beside_hidden = |cell: usize| {
+        let around = |k: usize| k.saturating_sub(1)..(k + 2).min(edge);
+        let (i, j) = (cell / edge, cell % edge);
+        around(i).any(|i| around(j).any(|j| is_hidden(edge * i + j)))
+    };
+    let sum = |of: &mut dyn Iterator<Item = usize>| {
+        of.fold([0.0; 2], |[all, backs], cell| {
+            [all + cells[cell][0], backs + cells[cell][1]]
+        })
+    };
+    let [clear, clear_backs] = sum(&mut (0..cells.len()).filter(|&k| !is_beside_hidden(k)));
+    let usual = if clear > 0.0 {
+        clear_backs / clear
+    } else {
+        0.0
+    };
+    let visible = |cell: usize| -> f64 {
+        let [all, backs] = cells[cell];
+        if !is_beside_hidden(cell) {
+            all
+        } else if is_hidden(cell) {
+            0.0
+        } else {
+            all * ((1.0 - backs / all) / (1.0 - usual)).clamp(0.0, 1.0)
+        }
+    };
+    let [whole, _] = sum(&mut (0..cells.len()));
+    (0..cells.len()).map(visible).sum::<f64>() / whole
+}
