@@ -130,17 +130,17 @@ fn thread_counts_leave_no_trace() {
 /// Smooth values just left and right of many points of a line, by looking at tiny regions.
 fn jumps_across(mesh: &Mesh, fields: &Fields<'_>, from: DVec3, to: DVec3) -> f32 {
     let across = (to - from).cross(DVec3::Z).normalize();
-    let value = |at: DVec3| view(mesh, fields, at, 1e-9, 1)[1].pixels[0][0];
+    let value = |at: DVec3| view(mesh, fields, at, 1e-11, 1)[1].pixels[0][0];
     let jump = |k: u32| {
         let at = from.lerp(to, (f64::from(k) + 0.37) / 20.0);
-        (value(at + 1e-7 * across) - value(at - 1e-7 * across)).abs()
+        (value(at + 1e-9 * across) - value(at - 1e-9 * across)).abs()
     };
     (0..20).map(jump).fold(0.0, f32::max)
 }
 
-/// Values up to 40 change by at most 40 per cell of size 1/8, so over a distance of 2e-7 by
-/// 1e-4 or less, and single precision adds as much; a seam would show jumps of order 1.
-const CONTINUOUS: f32 = 5e-4;
+/// A millionth of the mean, 20 / pi. Values up to 40 change by at most 40 per cell of size 1/8, so over a
+/// distance of 2e-9 by 6e-7 or less, and single precision adds some 1e-6; a seam would show jumps of order 1.
+const CONTINUOUS: f32 = 1e-6 * 20.0 / PI;
 
 #[test]
 fn no_seam_along_the_diagonal_of_two_triangles() {
