@@ -83,6 +83,47 @@ fn as_much_arrives_in_a_furnace_as_leaves() {
     }
 }
 
+/// The solution is that of the finite elements: whole patches in the simpler modes, their visible parts
+/// in the accurate one, which shine more than the mean of the patch.
+#[test]
+fn finite_elements_are_whole_patches_or_what_is_visible() {
+    for mode in [Mode::Regular, Mode::Accurate] {
+        let scene = small("cornell", mode);
+        let pipeline = pipeline(&scene);
+        let solved = solve(&pipeline);
+        let means = pipeline.mean_radiosity(&solved.light);
+        let elements = match mode {
+            Mode::Accurate => &solved.light.radiosity,
+            _ => &means,
+        };
+        // The scene's one light is as bright as its material says.
+        let pairs = elements
+            .as_flattened()
+            .iter()
+            .zip(solved.solution.lights[0].as_flattened());
+        for (found, expected) in pairs {
+            assert!(
+                (found - expected).abs() <= 1e-6 * expected.abs(),
+                "{mode:?} {found} {expected}"
+            );
+        }
+        let parts = solved
+            .light
+            .visible
+            .iter()
+            .zip(&means)
+            .zip(&solved.light.radiosity);
+        let mut hidden_in_part = 0;
+        for ((&visible, mean), shown) in parts.filter(|((visible, _), _)| **visible > 0.0) {
+            let ratio = mean[0] / shown[0];
+            assert!((ratio - visible).abs() < 1e-5 || shown[0] == 0.0 || visible == 1.0);
+            hidden_in_part += usize::from(visible < 1.0);
+        }
+        // Six patches over the lamp, and those at the cuboid's foot if they are dark enough.
+        assert!(hidden_in_part >= 6, "{mode:?} {hidden_in_part}");
+    }
+}
+
 /// `B = rho H` where nothing is emitted: on the white floor of the room, in all modes, patch by patch.
 #[test]
 fn patches_reflect_what_arrives() {

@@ -26,27 +26,29 @@ pub(crate) fn visible_share(cells: &[[f64; 2]]) -> f64 {
         let (i, j) = (cell / edge, cell % edge);
         around(i).any(|i| around(j).any(|j| is_hidden(edge * i + j)))
     };
-    let sum = |of: &mut dyn Iterator<Item = usize>| {
-        of.fold([0.0; 2], |[all, backs], cell| {
-            [all + cells[cell][0], backs + cells[cell][1]]
-        })
+    let sum = |cells: &[[f64; 2]]| {
+        let all: f64 = cells.iter().map(|[all, _]| all).sum();
+        let backs: f64 = cells.iter().map(|[_, backs]| backs).sum();
+        (all, backs)
     };
-    let [clear, clear_backs] = sum(&mut (0..cells.len()).filter(|&k| !is_beside_hidden(k)));
+    let clear = (0..cells.len()).filter(|&cell| !is_beside_hidden(cell));
+    let clear: Vec<[f64; 2]> = clear.map(|cell| cells[cell]).collect();
+    let (clear, clear_backs) = sum(&clear);
     let usual = if clear > 0.0 {
         clear_backs / clear
     } else {
         0.0
     };
-    let visible = |cell: usize| -> f64 {
+    let visible = |cell: usize| {
         let [all, backs] = cells[cell];
-        if !is_beside_hidden(cell) {
-            all
-        } else if is_hidden(cell) {
+        if is_hidden(cell) {
             0.0
+        } else if is_beside_hidden(cell) {
+            ((all - backs) / (1.0 - usual)).clamp(0.0, all)
         } else {
-            all * ((1.0 - backs / all) / (1.0 - usual)).clamp(0.0, 1.0)
+            all
         }
     };
-    let [whole, _] = sum(&mut (0..cells.len()));
+    let (whole, _) = sum(cells);
     (0..cells.len()).map(visible).sum::<f64>() / whole
 }

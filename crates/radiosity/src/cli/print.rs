@@ -4,6 +4,7 @@ use super::look::Number;
 use radiosity_renderer::{
     ColorScale, DeepPicture, Exposure, Image, Outlines, Picture, ToneMap, Transfer, with_legend,
 };
+use std::cell::OnceCell;
 
 /// Which levels numbers have.
 #[derive(Clone)]
@@ -23,6 +24,8 @@ pub(super) struct Print<'a> {
     pub(super) isolines: bool,
     /// Whether the borders of patches are drawn.
     pub(super) patch_lines: bool,
+    /// What a screen shows, once it is asked for.
+    pub(super) shown: OnceCell<Picture>,
 }
 
 /// Lines over pictures.
@@ -72,7 +75,11 @@ impl Palette {
 
 impl Print<'_> {
     /// What a screen shows.
-    pub(super) fn screen(&self) -> Picture {
+    pub(super) fn screen(&self) -> &Picture {
+        self.shown.get_or_init(|| self.show())
+    }
+
+    fn show(&self) -> Picture {
         let mut picture = self.palette.paint(self.image);
         if let Some(outlines) = self.outlines {
             if let Palette::Colors(scale, number) = self.palette

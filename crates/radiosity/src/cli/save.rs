@@ -96,7 +96,7 @@ impl<'a> Folder<'a> {
     fn encoded(&self, name: &str, print: &Print<'_>, format: FormatArg) -> Vec<u8> {
         let own = [("Picture", name.to_owned())];
         let metadata = [&self.metadata[..], &own, &print.palette.facts()].concat();
-        let levels = |format| encode(&print.screen(), format, &metadata);
+        let levels = |format| encode(print.screen(), format, &metadata);
         let transfer = print.palette.transfer();
         match format {
             FormatArg::Ppm => levels(PictureFormat::Ppm),

@@ -11,6 +11,7 @@ use crate::pipeline::{PatchLight, Pipeline};
 use radiosity_renderer::{
     Image, Outlines, Picture, Renderer, Shading, Transfer, contact_sheet, thumbnail_width,
 };
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 
 /// What is to be made, and what has been.
@@ -53,6 +54,7 @@ impl Series<'_> {
                         // Between patches of one number there is nothing to tell.
                         isolines: self.args.show.isolines && shading != Shading::Constant,
                         patch_lines: self.args.show.patch_lines,
+                        shown: OnceCell::new(),
                     };
                     self.keep(name_of(look, shot, shading), &print)?;
                     // Numbers have the same colours in all pictures, and films do not flicker; but
@@ -91,12 +93,19 @@ impl Series<'_> {
     fn keep(&mut self, name: String, print: &Print<'_>) -> Result<(), Error> {
         self.folder.save(&name, print)?;
         if self.args.views.sheet {
-            let width = thumbnail_width(self.looks.len() * self.shots.len());
-            let thumbnail = print.screen().thumbnail(width);
+            let thumbnail = print.screen().thumbnail(self.thumbnail_width());
             self.sheet.transfer.get_or_insert(print.palette.transfer());
             self.sheet.pictures.push((name, thumbnail));
         }
         Ok(())
+    }
+
+    /// So that the pictures of the whole run fit on a sheet.
+    fn thumbnail_width(&self) -> u32 {
+        let wanted = self.args.shadings();
+        let looks = self.looks.iter();
+        let of_shot: usize = looks.map(|look| look.shadings(&wanted).len()).sum();
+        thumbnail_width(of_shot * self.shots.len())
     }
 
     fn outlines(&self, look: &Look, shot: &Shot) -> Option<Outlines> {
