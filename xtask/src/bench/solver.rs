@@ -77,57 +77,81 @@ fn form_factors(scene: &Scene, store: &Store) -> Result<FormFactors, Error> {
     Ok(pipeline.form_factors(Sources::Cached)?.form_factors)
 }
 
-/// So many runs of what takes so long at the largest size.
+/// So many runs: the shorter, the more.
 fn runs(patches: usize) -> u32 {
-    if patches > 10_000 { 5 } else { 30 }
+    match patches {
+        0..5_000 => 150,
+        5_000..10_000 => 30,
+        _ => 5,
+    }
 }
 
-/// Passes over the matrix against the bandwidth of memory.
+/// Passes over the matrix against the bandwidth of memory. Both are timed in turn, since memory is
+/// not always as fast: the shares are those of the middle round.
 fn passes(made: &FormFactors) -> Vec<Figure> {
     let patches = made.exchange.size();
-    let (values, runs) = (made.exchange.values(), runs(patches));
-    let bytes = 4.0 * values.len() as f64;
-    let read = best_seconds(runs, || {
-        std::hint::black_box(sum(values));
-    });
-    let pass = |matrix: &SymmetricMatrix, lights: usize| {
+    let mapped = &made.exchange;
+    let in_memory = SymmetricMatrix::new(patches, mapped.values().to_vec());
+    let in_memory = in_memory.expect("they are as many as before");
+    let seconds = |matrix: &SymmetricMatrix, lights: usize| {
         let mut x = vec![[1.0; 3]; patches * lights];
-        best_seconds(runs, || {
+        best_seconds(2, || {
             std::hint::black_box(matrix.sweep(&mut x, lights, &mut |_, _, _| ()));
         })
     };
-    let mapped = pass(&made.exchange, 1);
-    let four = pass(&made.exchange, 4);
-    let in_memory = SymmetricMatrix::new(patches, values.to_vec());
-    let in_memory = pass(&in_memory.expect("they are as many as before"), 1);
+    let round = |_| {
+        let read = best_seconds(2, || {
+            std::hint::black_box(sum(mapped.values()));
+        });
+        let pass = seconds(mapped, 1);
+        let four = seconds(mapped, 4);
+        [read, pass, seconds(&in_memory, 1), four]
+    };
+    let rounds: Vec<[f64; 4]> = (0..runs(patches)).map(round).collect();
+    let of_rounds = |figure: fn(&[f64; 4]) -> f64| median(rounds.iter().map(figure).collect());
     let figure = |what: &str, value: f64, unit, target: Option<Target>| {
         let name = format!("solver.{patches}.{what}");
         Figure::new(name, Some(value), unit, target.filter(|_| patches > 10_000))
     };
-    let share = |seconds: f64| 100.0 * read / seconds;
+    let bytes = 4e-9 * mapped.values().len() as f64;
     let most = Some(Target::AtLeast(BANDWIDTH));
     vec![
-        figure("read", 1e-9 * bytes / read, "GB/s, all threads", None),
+        figure(
+            "read",
+            bytes / of_rounds(|round| round[0]),
+            "GB/s, all threads",
+            None,
+        ),
         figure(
             "pass",
-            1e3 * mapped,
+            1e3 * of_rounds(|round| round[1]),
             "ms for one light, from a mapped file",
             None,
         ),
-        figure("pass.bandwidth", share(mapped), "% of that", most),
+        figure(
+            "pass.bandwidth",
+            100.0 * of_rounds(|[read, pass, ..]| read / pass),
+            "% of that",
+            most,
+        ),
         figure(
             "pass.memory",
-            share(in_memory),
+            100.0 * of_rounds(|[read, _, pass, _]| read / pass),
             "% of that, from memory",
             most,
         ),
         figure(
             "pass.four_lights",
-            four / mapped,
+            of_rounds(|[_, pass, _, four]| four / pass),
             "times the pass for one",
             Some(Target::Between(0.0, FOUR_LIGHTS)),
         ),
     ]
+}
+
+fn median(mut numbers: Vec<f64>) -> f64 {
+    numbers.sort_by(f64::total_cmp);
+    numbers[numbers.len() / 2]
 }
 
 /// Reads all numbers.
