@@ -98,6 +98,30 @@ fn starts_that_do_not_fit_are_not_believed() {
     }
 }
 
+/// However far off it is, as long as it is in reach.
+#[test]
+fn starts_that_are_far_off_lead_to_the_same_solution() {
+    let case = two_lights();
+    let far = vec![vec![[1e6; 3]; 30]; 2];
+    for method in METHODS {
+        let near = case.solve(&with(method));
+        let found = solve(&case.system(), Some(&far), &with(method), &mut |_| ()).unwrap();
+        assert!(found.report.converged, "{method:?}");
+        // The residual of each is 1e-6 of the emission, and what is reflected on and on of it.
+        let reflectance = case.reflectance.as_flattened().iter().copied();
+        let all_bounces = 1.0 / (1.0 - reflectance.fold(0.0, f64::max));
+        let bound = 2e-6 * all_bounces;
+        let length =
+            |numbers: &mut dyn Iterator<Item = f64>| numbers.map(|x| x * x).sum::<f64>().sqrt();
+        for (light, emission) in case.lights.iter().enumerate() {
+            let [found, near] = [&found, &near].map(|of| of.lights[light].as_flattened());
+            let errors = found.iter().zip(near).map(|(a, b)| f64::from(a - b));
+            let emitted = length(&mut emission.as_flattened().iter().copied());
+            assert!(length(&mut { errors }) <= bound * emitted, "{method:?}");
+        }
+    }
+}
+
 /// Light is reflected once by `rho F E`.
 #[test]
 fn direct_light_is_reflected_once() {
