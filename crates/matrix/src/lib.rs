@@ -117,30 +117,6 @@ impl SymmetricMatrix {
 }
 
 impl SymmetricMatrix {
-    /// What the values of a few rows, in ascending order, add to the sums of all rows `i`: those
-    /// of `j < i`, and those of `j > i`. The layout is that of [`SymmetricMatrix::sweep`].
-    pub fn sums_of_rows(
-        &self,
-        rows: &[usize],
-        x: &[Triple<f32>],
-        triples: usize,
-    ) -> [Vec<Triple<f64>>; 2] {
-        let mut above = vec![[0.0; 3]; x.len()];
-        let mut below = above.clone();
-        let of_row = |i: usize| i * triples..(i + 1) * triples;
-        for &j in rows {
-            for (i, &entry) in self.values()[packed_row(j)].iter().enumerate() {
-                sweep::add_scaled(&mut below[of_row(i)], entry, &x[of_row(j)]);
-            }
-        }
-        for (i, entries) in self.rows() {
-            for &j in rows.iter().take_while(|&&j| j < i) {
-                sweep::add_scaled(&mut above[of_row(i)], entries[j], &x[of_row(j)]);
-            }
-        }
-        [above, below]
-    }
-
     /// The sums over blocks of entries, in `f64`: entry `a * parts + b` is that of all `(i, j)`
     /// with `i` in part `a` and `j` in part `b`. Every `part_of[i]` is below `parts`. The same for
     /// any number of threads.

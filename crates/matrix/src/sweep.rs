@@ -12,21 +12,26 @@
 //! on every band, on all threads, while the numbers of the first block are still in the
 //! processor's cache. Only the triangle on the diagonal goes row by row.
 //!
-//! Sums are in single precision over a band and in double precision beyond, in an order that
-//! neither threads nor instruction sets have a part in.
+//! Sums are in single precision over a band or some blocks and in double precision beyond, in an
+//! order that neither threads nor instruction sets have a part in.
 
 mod band;
+mod member;
+mod shared;
 mod step;
 mod team;
+mod triangle;
 
 #[cfg(test)]
 mod tests;
 
-use crate::{SymmetricMatrix, packed_row};
-use band::{BLOCK, Band, Block, WIDTH};
+use crate::SymmetricMatrix;
+use band::{OfRows, WIDTH, blocks_of, rows_of};
+use member::Member;
 use radiosity_simd::InstructionSet;
-use std::ops::Range;
+use std::sync::OnceLock;
 use team::Team;
+use triangle::{Solve, Triangle};
 
 /// Three vectors side by side at a row.
 pub type Triple<T> = [T; 3];
@@ -35,7 +40,7 @@ pub type Triple<T> = [T; 3];
 pub type Update<'a> = dyn FnMut(usize, &[Triple<f64>], &mut [Triple<f32>]) + Send + 'a;
 
 /// A thread for fewer rows than this is more trouble than help.
-const WORTH_A_THREAD: usize = 2048;
+const WORTH_A_THREAD: usize = 1024;
 
 impl SymmetricMatrix {
     /// Goes through all rows once, for vectors side by side: `x[i * triples + k]` holds the vectors
@@ -44,7 +49,8 @@ impl SymmetricMatrix {
     /// `sum_{i > j} S_ij x_i` of each row `j`, with the values at the end.
     ///
     /// The same bits for any number of threads and any instruction set. Over up to 512 numbers,
-    /// sums have the rounding errors of single precision.
+    /// sums have the rounding errors of single precision. What would be multiplied by zeros alone is
+    /// not even read.
     ///
     /// `update` must not wait for other threads of the pool: they may be waiting for it.
     ///
@@ -73,14 +79,12 @@ impl SymmetricMatrix {
         if x.is_empty() {
             return Vec::new();
         }
-        let bands = (0..self.size()).step_by(WIDTH);
-        let bands = bands.map(|start| Band::new(start, x, triples)).collect();
-        let team = Team::new(set, bands, members);
-        rayon::scope(|scope| {
+        let team = Team::new(set, self, x, triples, members);
+        rayon::in_place_scope(|scope| {
             let _dismissal = team.dismissed_at_end();
             let team = &team;
             (1..members).for_each(|member| scope.spawn(move |_| team.help(member)));
-            self.lead(team, x, triples, update);
+            lead(team, x, update);
         });
         let mut below = Vec::with_capacity(x.len().next_multiple_of(WIDTH));
         team.into_bands()
@@ -89,75 +93,48 @@ impl SymmetricMatrix {
         below
     }
 
-    /// Takes all steps, and solves each block between two of them.
-    fn lead<'a>(
-        &'a self,
-        team: &Team<'a>,
-        x: &mut [Triple<f32>],
-        triples: usize,
-        update: &mut Update<'_>,
-    ) {
-        let mut last: Option<Block<'a>> = None;
-        for first in (0..self.size()).step_by(BLOCK) {
-            let rows = first..self.size().min(first + BLOCK);
-            let bands = first.div_ceil(WIDTH);
-            let next = team.lead(bands, last, Some(Block::new(self, &rows, triples)));
-            let mut above = vec![[0.0; 3]; BLOCK * triples];
-            (0..bands).for_each(|band| team.band(band).add_products(&mut above));
-            let below = self.triangle(&rows, &mut above, x, triples, update);
-            let values = &x[rows.start * triples..rows.end * triples];
-            team.band(first / WIDTH).set(first % WIDTH, values, &below);
-            last = next.map(|block| block.with_values(values));
-        }
-        let bands = last.as_ref().map_or(0, |last| last.first.div_ceil(WIDTH));
-        team.lead(bands, last, None);
-    }
-
     /// How many threads a sweep keeps busy.
     fn worth_threads(&self) -> usize {
-        let processors = std::thread::available_parallelism().map_or(1, usize::from);
-        let bands = self.size() / WORTH_A_THREAD;
-        rayon::current_num_threads()
-            .min(processors)
-            .min(bands.max(1))
-    }
-
-    /// The part of a block that its own rows have in each other, row by row. `above` holds the sums
-    /// of what stands left of it. Returns the sums below the diagonal.
-    fn triangle(
-        &self,
-        rows: &Range<usize>,
-        above: &mut [Triple<f64>],
-        x: &mut [Triple<f32>],
-        triples: usize,
-        update: &mut Update<'_>,
-    ) -> Vec<Triple<f64>> {
-        let mut below = vec![[0.0; 3]; rows.len() * triples];
-        for i in rows.clone() {
-            let entries = &self.values()[packed_row(i)][rows.start..];
-            let (known, rest) = x.split_at_mut(i * triples);
-            let known = &known[rows.start * triples..];
-            let (x_i, sums) = (
-                &mut rest[..triples],
-                &mut above[(i - rows.start) * triples..][..triples],
-            );
-            for (&s, x_j) in entries.iter().zip(known.chunks_exact(triples)) {
-                add_scaled(sums, s, x_j);
-            }
-            update(i, sums, x_i);
-            for (&s, below) in entries.iter().zip(below.chunks_exact_mut(triples)) {
-                add_scaled(below, s, x_i);
-            }
-        }
-        below
+        let threads = rayon::current_num_threads().min(processors());
+        threads.min(self.size() / WORTH_A_THREAD).max(1)
     }
 }
 
-/// `sums += factor * x`, number by number.
-pub(crate) fn add_scaled(sums: &mut [Triple<f64>], factor: f32, x: &[Triple<f32>]) {
-    for (sum, x) in sums.iter_mut().zip(x) {
-        for c in 0..3 {
-            sum[c] += f64::from(factor) * f64::from(x[c]);
+/// How many there are, which takes the system longer to tell than a small sweep takes.
+fn processors() -> usize {
+    static PROCESSORS: OnceLock<usize> = OnceLock::new();
+    *PROCESSORS.get_or_init(|| std::thread::available_parallelism().map_or(1, usize::from))
+}
+
+/// Takes all steps, and solves each block after its own.
+fn lead(team: &Team<'_>, x: &mut [Triple<f32>], update: &mut Update<'_>) {
+    let (matrix, triples) = (team.matrix, team.triples);
+    let mut leader = Member::new(team, 0);
+    let mut above = vec![OfRows::default(); triples];
+    let mut below = above.clone();
+    let mut values = vec![OfRows::default(); triples];
+    let mut triangle = Triangle::default();
+    for block in 0..blocks_of(matrix) {
+        team.lead(block, &mut leader);
+        above.fill(OfRows::default());
+        below.fill(OfRows::default());
+        team.add_products(block, &mut above);
+        let rows = rows_of(block, matrix.size());
+        triangle.set(matrix, &rows);
+        let x = &mut x[rows.start * triples..rows.end * triples];
+        team.set.run(Solve {
+            triangle: &triangle,
+            rows,
+            above: &mut above,
+            below: &mut below,
+            x,
+            update,
+        });
+        values.fill(OfRows::default());
+        for (k, x) in x.iter().enumerate() {
+            (0..3).for_each(|c| values[k % triples][c][k / triples] = x[c]);
         }
+        team.set_values(block, &values, &below);
     }
+    team.lead(blocks_of(matrix), &mut leader);
 }

@@ -5,7 +5,7 @@
 )]
 
 use crate::registers::{entrance, registers};
-use crate::{Float, InstructionSet, Kernel, LANES, Name, Simd};
+use crate::{Float, InstructionSet, Kernel, LANES, Name, Simd, WIDE, WideFloat};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -23,6 +23,38 @@ registers! {
     _mm256_loadu_pd, _mm256_storeu_pd, _mm256_set1_pd,
     _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_min_pd, _mm256_max_pd,
     _mm256_sqrt_pd, less_f64, less_or_equal_f64, select_f64
+}
+
+registers! {
+    @wide Wide: [__m256; 2],
+    _mm256_loadu_ps, _mm256_storeu_ps, _mm256_set1_ps, _mm256_add_ps, _mm256_mul_ps
+}
+
+/// Only where the processor has the instructions.
+#[inline(always)]
+unsafe fn totals([a, b, c, d]: [Wide; 4]) -> [f32; 4] {
+    // SAFETY: the caller's; the store writes the whole array.
+    unsafe {
+        let mut fours = [_mm256_setzero_ps(); 2];
+        for (k, fours) in fours.iter_mut().enumerate() {
+            let (a, b, c, d) = (a.0[k], b.0[k], c.0[k], d.0[k]);
+            let ab = _mm256_add_ps(_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
+            let cd = _mm256_add_ps(_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d));
+            let (ab, cd) = (_mm256_castps_pd(ab), _mm256_castps_pd(cd));
+            *fours = _mm256_add_ps(
+                _mm256_castpd_ps(_mm256_unpacklo_pd(ab, cd)),
+                _mm256_castpd_ps(_mm256_unpackhi_pd(ab, cd)),
+            );
+        }
+        let pairs = _mm256_add_ps(fours[0], fours[1]);
+        let sums = _mm_add_ps(
+            _mm256_castps256_ps128(pairs),
+            _mm256_extractf128_ps::<1>(pairs),
+        );
+        let mut totals = [0.0; 4];
+        _mm_storeu_ps(totals.as_mut_ptr(), sums);
+        totals
+    }
 }
 
 /// Only where the processor has the instructions.

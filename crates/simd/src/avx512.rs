@@ -5,7 +5,7 @@
 )]
 
 use crate::registers::{entrance, registers};
-use crate::{Float, InstructionSet, Kernel, LANES, Name, Simd};
+use crate::{Float, InstructionSet, Kernel, LANES, Name, Simd, WIDE, WideFloat};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -23,6 +23,38 @@ registers! {
     _mm512_loadu_pd, _mm512_storeu_pd, _mm512_set1_pd,
     _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_min_pd, _mm512_max_pd,
     _mm512_sqrt_pd, less_f64, less_or_equal_f64, select_f64
+}
+
+registers! {
+    @wide Wide: [__m512; 1],
+    _mm512_loadu_ps, _mm512_storeu_ps, _mm512_set1_ps, _mm512_add_ps, _mm512_mul_ps
+}
+
+/// Only where the processor has the instructions.
+#[inline(always)]
+unsafe fn totals([a, b, c, d]: [Wide; 4]) -> [f32; 4] {
+    let ([a], [b], [c], [d]) = (a.0, b.0, c.0, d.0);
+    // SAFETY: the caller's; the store writes the whole array.
+    unsafe {
+        let ab = _mm512_add_ps(_mm512_unpacklo_ps(a, b), _mm512_unpackhi_ps(a, b));
+        let cd = _mm512_add_ps(_mm512_unpacklo_ps(c, d), _mm512_unpackhi_ps(c, d));
+        let (ab, cd) = (_mm512_castps_pd(ab), _mm512_castps_pd(cd));
+        let fours = _mm512_add_ps(
+            _mm512_castpd_ps(_mm512_unpacklo_pd(ab, cd)),
+            _mm512_castpd_ps(_mm512_unpackhi_pd(ab, cd)),
+        );
+        let pairs = _mm256_add_ps(
+            _mm512_castps512_ps256(fours),
+            _mm256_castpd_ps(_mm512_extractf64x4_pd::<1>(_mm512_castps_pd(fours))),
+        );
+        let sums = _mm_add_ps(
+            _mm256_castps256_ps128(pairs),
+            _mm256_extractf128_ps::<1>(pairs),
+        );
+        let mut totals = [0.0; 4];
+        _mm_storeu_ps(totals.as_mut_ptr(), sums);
+        totals
+    }
 }
 
 /// Only where the processor has the instructions.

@@ -21,8 +21,8 @@
 //! assert_eq!(dispatch(CountNegative(&[[-1.0; 8], [1.0; 8]])), 8);
 //! ```
 //!
-//! Every operation rounds as IEEE 754 says, none is fused or approximate, and there are eight
-//! lanes everywhere: all instruction sets give the same bits. The environment variable
+//! Every operation rounds as IEEE 754 says, none is fused or approximate, and there are as many
+//! lanes everywhere, eight or [`WIDE`]: all instruction sets give the same bits. The environment variable
 //! `RADIOSITY_SIMD` (`portable`, `avx2`, `avx512`) picks one, to measure or to test.
 
 mod angle;
@@ -43,6 +43,8 @@ const VARIABLE: &str = "RADIOSITY_SIMD";
 
 /// How many numbers are computed at once.
 pub const LANES: usize = 8;
+/// How many where there is nothing to do but to multiply and to add.
+pub const WIDE: usize = 16;
 
 /// An instruction set that the processor has. Its value is the proof.
 pub trait Simd: Copy {
@@ -50,6 +52,8 @@ pub trait Simd: Copy {
     type F32: Float<f32>;
     /// Eight numbers in double precision.
     type F64: Float<f64>;
+    /// Sixteen numbers in single precision.
+    type Wide: WideFloat;
 
     /// Loads lanes.
     fn f32(self, lanes: &[f32; LANES]) -> Self::F32;
@@ -59,13 +63,17 @@ pub trait Simd: Copy {
     fn splat_f32(self, number: f32) -> Self::F32;
     /// The same number in all lanes.
     fn splat_f64(self, number: f64) -> Self::F64;
+    /// Loads lanes.
+    fn wide(self, lanes: &[f32; WIDE]) -> Self::Wide;
+    /// The same number in all lanes.
+    fn splat_wide(self, number: f32) -> Self::Wide;
     /// Rounds to single precision.
     fn narrow(self, numbers: Self::F64) -> Self::F32;
     /// The same numbers in double precision.
     fn widen(self, numbers: Self::F32) -> Self::F64;
-    /// Has the processor fetch what stands so many numbers after the first, be it past the end:
-    /// a hint, without any effect but on time.
-    fn prefetch(self, numbers: &[f32], ahead: usize);
+    /// Has the processor fetch the line of memory of the first number: a hint, without any effect
+    /// but on time.
+    fn prefetch(self, numbers: &[f32]);
 }
 
 /// Eight numbers. Comparisons answer with one bit per lane, the first lane lowest; nothing
@@ -92,6 +100,16 @@ pub trait Float<T>:
     fn select(self, mask: u8, other: Self) -> Self;
     /// The lanes.
     fn lanes(self) -> [T; LANES];
+}
+
+/// Sixteen numbers, for products and sums alone: the widest registers have room for them, and do
+/// twice as much at a time.
+pub trait WideFloat: Copy + Add<Output = Self> + Mul<Output = Self> {
+    /// The lanes.
+    fn lanes(self) -> [f32; WIDE];
+    /// The sums over the lanes of four: `(a + c) + (b + d)` of each four lanes, and then of those
+    /// four sums.
+    fn totals(four: [Self; 4]) -> [f32; 4];
 }
 
 /// A computation written for any instruction set.

@@ -1,6 +1,6 @@
 //! Arrays: for machines without the other instruction sets, and what those are tested against.
 
-use crate::{Float, LANES, Simd};
+use crate::{Float, LANES, Simd, WIDE, WideFloat};
 use std::array::from_fn;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -8,11 +8,12 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 pub(crate) struct Portable;
 
 #[derive(Clone, Copy)]
-pub(crate) struct Array<T>([T; LANES]);
+pub(crate) struct Array<T, const COUNT: usize = LANES>([T; COUNT]);
 
 impl Simd for Portable {
     type F32 = Array<f32>;
     type F64 = Array<f64>;
+    type Wide = Array<f32, WIDE>;
 
     #[inline(always)]
     fn f32(self, lanes: &[f32; LANES]) -> Array<f32> {
@@ -35,6 +36,16 @@ impl Simd for Portable {
     }
 
     #[inline(always)]
+    fn wide(self, lanes: &[f32; WIDE]) -> Array<f32, WIDE> {
+        Array(*lanes)
+    }
+
+    #[inline(always)]
+    fn splat_wide(self, number: f32) -> Array<f32, WIDE> {
+        Array([number; WIDE])
+    }
+
+    #[inline(always)]
     fn narrow(self, numbers: Array<f64>) -> Array<f32> {
         Array(numbers.0.map(|number| number as f32))
     }
@@ -45,16 +56,16 @@ impl Simd for Portable {
     }
 
     #[inline(always)]
-    fn prefetch(self, _: &[f32], _: usize) {}
+    fn prefetch(self, _: &[f32]) {}
 }
 
 macro_rules! operator {
     ($trait:ident, $method:ident) => {
-        impl<T: Copy + $trait<Output = T>> $trait for Array<T> {
-            type Output = Array<T>;
+        impl<T: Copy + $trait<Output = T>, const COUNT: usize> $trait for Array<T, COUNT> {
+            type Output = Self;
 
             #[inline(always)]
-            fn $method(self, other: Array<T>) -> Array<T> {
+            fn $method(self, other: Self) -> Self {
                 Array(from_fn(|k| self.0[k].$method(other.0[k])))
             }
         }
@@ -159,5 +170,22 @@ impl<T: Scalar> Float<T> for Array<T> {
     #[inline(always)]
     fn lanes(self) -> [T; LANES] {
         self.0
+    }
+}
+
+impl WideFloat for Array<f32, WIDE> {
+    #[inline(always)]
+    fn lanes(self) -> [f32; WIDE] {
+        self.0
+    }
+
+    #[inline(always)]
+    fn totals(four: [Array<f32, WIDE>; 4]) -> [f32; 4] {
+        let of_four = |[a, b, c, d]: [f32; 4]| (a + c) + (b + d);
+        let total = |lanes: Array<f32, WIDE>| {
+            let fours = lanes.0.as_chunks::<4>().0;
+            of_four(from_fn(|k| of_four(fours[k])))
+        };
+        four.map(total)
     }
 }

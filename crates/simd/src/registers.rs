@@ -9,33 +9,9 @@ macro_rules! registers {
         $add:ident, $sub:ident, $mul:ident, $div:ident, $min:ident, $max:ident,
         $sqrt:ident, $less:ident, $less_or_equal:ident, $select:ident
     ) => {
-        #[derive(Clone, Copy)]
-        pub(crate) struct $name([$register; $count]);
+        registers!(@memory $name, $scalar, LANES, [$register; $count], $load, $store, $splat);
 
         impl $name {
-            const WIDTH: usize = LANES / $count;
-
-            /// Loads lanes. Only where the processor has the instructions.
-            #[inline(always)]
-            pub(crate) unsafe fn load(lanes: &[$scalar; LANES]) -> $name {
-                // SAFETY: the caller's for the instruction; every register reads its own part
-                // of the array.
-                unsafe {
-                    let mut registers = [$splat(0.0); $count];
-                    for (k, register) in registers.iter_mut().enumerate() {
-                        *register = $load(lanes.as_ptr().add(k * Self::WIDTH));
-                    }
-                    $name(registers)
-                }
-            }
-
-            /// The same number everywhere. Only where the processor has the instructions.
-            #[inline(always)]
-            pub(crate) unsafe fn splat(number: $scalar) -> $name {
-                // SAFETY: the caller's.
-                $name([unsafe { $splat(number) }; $count])
-            }
-
             registers!(@pairwise $name, $count, min_registers, $min);
             registers!(@pairwise $name, $count, max_registers, $max);
         }
@@ -92,7 +68,68 @@ macro_rules! registers {
 
             #[inline(always)]
             fn lanes(self) -> [$scalar; LANES] {
-                let mut lanes = [0.0; LANES];
+                self.store()
+            }
+        }
+    };
+
+    // Twice as many lanes, which only multiply and add.
+    (
+        @wide $name:ident: [$register:ty; $count:literal],
+        $load:ident, $store:ident, $splat:ident, $add:ident, $mul:ident
+    ) => {
+        registers!(@memory $name, f32, WIDE, [$register; $count], $load, $store, $splat);
+        registers!(@operator $name, $count, Add, add, $add);
+        registers!(@operator $name, $count, Mul, mul, $mul);
+
+        impl WideFloat for $name {
+            #[inline(always)]
+            fn lanes(self) -> [f32; WIDE] {
+                self.store()
+            }
+
+            #[inline(always)]
+            fn totals(four: [$name; 4]) -> [f32; 4] {
+                // SAFETY: lanes exist only where the processor has the instructions.
+                unsafe { totals(four) }
+            }
+        }
+    };
+
+    (
+        @memory $name:ident, $scalar:ty, $lanes:ident, [$register:ty; $count:literal],
+        $load:ident, $store:ident, $splat:ident
+    ) => {
+        #[derive(Clone, Copy)]
+        pub(crate) struct $name([$register; $count]);
+
+        impl $name {
+            const WIDTH: usize = $lanes / $count;
+
+            /// Loads lanes. Only where the processor has the instructions.
+            #[inline(always)]
+            pub(crate) unsafe fn load(lanes: &[$scalar; $lanes]) -> $name {
+                // SAFETY: the caller's for the instruction; every register reads its own part
+                // of the array.
+                unsafe {
+                    let mut registers = [$splat(0.0); $count];
+                    for (k, register) in registers.iter_mut().enumerate() {
+                        *register = $load(lanes.as_ptr().add(k * Self::WIDTH));
+                    }
+                    $name(registers)
+                }
+            }
+
+            /// The same number everywhere. Only where the processor has the instructions.
+            #[inline(always)]
+            pub(crate) unsafe fn splat(number: $scalar) -> $name {
+                // SAFETY: the caller's.
+                $name([unsafe { $splat(number) }; $count])
+            }
+
+            #[inline(always)]
+            fn store(self) -> [$scalar; $lanes] {
+                let mut lanes = [0.0; $lanes];
                 for (k, register) in self.0.into_iter().enumerate() {
                     // SAFETY: lanes exist only where the processor has the instructions; every
                     // register writes its own part of the array.
@@ -160,6 +197,7 @@ macro_rules! entrance {
         impl Simd for $name {
             type F32 = F32;
             type F64 = F64;
+            type Wide = Wide;
 
             #[inline(always)]
             fn f32(self, lanes: &[f32; LANES]) -> F32 {
@@ -186,6 +224,18 @@ macro_rules! entrance {
             }
 
             #[inline(always)]
+            fn wide(self, lanes: &[f32; WIDE]) -> Wide {
+                // SAFETY: see `run`.
+                unsafe { Wide::load(lanes) }
+            }
+
+            #[inline(always)]
+            fn splat_wide(self, number: f32) -> Wide {
+                // SAFETY: see `run`.
+                unsafe { Wide::splat(number) }
+            }
+
+            #[inline(always)]
             fn narrow(self, numbers: F64) -> F32 {
                 // SAFETY: see `run`.
                 unsafe { narrow(numbers) }
@@ -198,9 +248,9 @@ macro_rules! entrance {
             }
 
             #[inline(always)]
-            fn prefetch(self, numbers: &[f32], ahead: usize) {
+            fn prefetch(self, numbers: &[f32]) {
                 // SAFETY: see `run`. No address is wrong for a hint.
-                unsafe { _mm_prefetch::<_MM_HINT_T1>(numbers.as_ptr().wrapping_add(ahead).cast()) }
+                unsafe { _mm_prefetch::<_MM_HINT_T1>(numbers.as_ptr().cast()) }
             }
         }
     };

@@ -1,7 +1,7 @@
 //! All instruction sets of the machine that runs the tests give the bits of plain arithmetic.
 
 use proptest::prelude::*;
-use radiosity_simd::{Float, InstructionSet, Kernel, LANES, Simd};
+use radiosity_simd::{Float, InstructionSet, Kernel, LANES, Simd, WIDE, WideFloat};
 
 /// Lanes that a selection takes from its first operand.
 const SELECTED: u8 = 0b1011_0010;
@@ -87,7 +87,7 @@ impl Kernel for Narrow {
     }
 }
 
-/// Floats, to be made doubles; what comes next is asked for, which changes nothing.
+/// Floats, to be made doubles; they are asked for before, which changes nothing.
 struct Widen([f32; LANES]);
 
 impl Kernel for Widen {
@@ -95,9 +95,45 @@ impl Kernel for Widen {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> [u64; LANES] {
-        simd.prefetch(&self.0, 1 << 40);
+        simd.prefetch(&self.0);
+        simd.prefetch(&[]);
         let lanes = simd.widen(simd.f32(&self.0)).lanes();
         lanes.map(f64::to_bits)
+    }
+}
+
+/// Twice as many floats, four times: their products and sums, and totals.
+struct Wide([[f32; WIDE]; 4]);
+
+impl Kernel for Wide {
+    type Output = (Vec<[f32; WIDE]>, [f32; 4]);
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Self::Output {
+        let [a, b, c, d] = [&self.0[0], &self.0[1], &self.0[2], &self.0[3]];
+        let [a, b, c, d] = [simd.wide(a), simd.wide(b), simd.wide(c), simd.wide(d)];
+        let numbers = vec![
+            (a + b).lanes(),
+            (c * d).lanes(),
+            simd.splat_wide(self.0[0][5]).lanes(),
+        ];
+        (numbers, S::Wide::totals([a, b, c, d]))
+    }
+}
+
+impl Wide {
+    fn expected(&self) -> (Vec<[f32; WIDE]>, [f32; 4]) {
+        let [a, b, c, d] = &self.0;
+        let numbers = vec![
+            std::array::from_fn(|k| a[k] + b[k]),
+            std::array::from_fn(|k| c[k] * d[k]),
+            [a[5]; WIDE],
+        ];
+        let total = |of: &[f32; WIDE]| {
+            let four = |k: usize| (of[k] + of[k + 2]) + (of[k + 1] + of[k + 3]);
+            (four(0) + four(8)) + (four(4) + four(12))
+        };
+        (numbers, [total(a), total(b), total(c), total(d)])
     }
 }
 
@@ -112,6 +148,15 @@ fn lanes<T: std::fmt::Debug + Copy>(
 }
 
 proptest! {
+    #[test]
+    fn wide(numbers in proptest::collection::vec(-1e6f32..1e6, 4 * WIDE)) {
+        let numbers = || std::array::from_fn(|k| std::array::from_fn(|i| numbers[k * WIDE + i]));
+        let expected = Wide(numbers()).expected();
+        for set in InstructionSet::available() {
+            prop_assert_eq!(&set.run(Wide(numbers())), &expected, "{}", set.name());
+        }
+    }
+
     #[test]
     fn floats(a in lanes(proptest::num::f32::ANY), b in lanes(proptest::num::f32::ANY)) {
         Everything::<f32>::check(a, b);

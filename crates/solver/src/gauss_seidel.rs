@@ -98,18 +98,22 @@ impl<'a> GaussSeidel<'a> {
         let mut norms = vec![(0.0, 0.0); lights];
         let mut update = |i: usize, sums: &[Triple<f64>], x: &mut [Triple<f32>]| {
             let first = i * lights;
-            above[first..first + lights].copy_from_slice(sums);
-            for (k, x) in x.iter_mut().enumerate() {
-                let (emission, gain) = (&problem.emission[first + k], &problem.gain[i]);
+            let (area, gain) = (problem.areas[i], &problem.gain[i]);
+            for (k, (x, norm)) in x.iter_mut().zip(&mut norms).enumerate() {
+                let (above, below) = (&mut above[first + k], &below[first + k]);
+                let emission = &problem.emission[first + k];
+                *above = sums[k];
+                let mut squares = (0.0, 0.0);
                 for c in 0..3 {
                     let old = f64::from(x[c]);
-                    let sum = sums[k][c] + below[first + k][c];
-                    let new = old + factor * (emission[c] + gain[c] * sum - old);
-                    x[c] = new as f32;
+                    let sum = above[c] + below[c];
+                    x[c] = (old + factor * (emission[c] + gain[c] * sum - old)) as f32;
                     let new = f64::from(x[c]);
-                    norms[k].0 += problem.areas[i] * (new - old) * (new - old);
-                    norms[k].1 += problem.areas[i] * new * new;
+                    squares.0 += (new - old) * (new - old);
+                    squares.1 += new * new;
                 }
+                norm.0 += area * squares.0;
+                norm.1 += area * squares.1;
             }
         };
         let new = problem.exchange.sweep(&mut self.x, lights, &mut update);

@@ -22,9 +22,6 @@ pub(crate) struct Problem<'a> {
     norms: Vec<f64>,
 }
 
-/// If one row in so many emits, or more, then all are taken for the first sums.
-const FEW: usize = 32;
-
 impl<'a> Problem<'a> {
     pub(crate) fn new(system: &System<'a>) -> Problem<'a> {
         let total = system.total_area();
@@ -135,14 +132,6 @@ impl<'a> Problem<'a> {
     /// `sum_j S_ij x_j`, in two parts: over `j < i` and over `j > i`.
     pub(crate) fn sums(&self, x: &mut [Triple<f32>]) -> [Values<f64>; 2] {
         let lights = self.lights();
-        let shines = |i: &usize| {
-            let values = &x[i * lights..(i + 1) * lights];
-            values.as_flattened().iter().any(|&channel| channel != 0.0)
-        };
-        let rows: Vec<usize> = (0..self.areas.len()).filter(shines).collect();
-        if rows.len() * FEW < self.areas.len() {
-            return self.exchange.sums_of_rows(&rows, x, lights);
-        }
         let mut above = Values::with_capacity(x.len());
         let below = self.exchange.sweep(x, lights, &mut |_, sums, _| {
             above.extend_from_slice(sums);

@@ -2,126 +2,146 @@
 
 use super::Triple;
 use crate::{SymmetricMatrix, packed_row};
-use radiosity_simd::LANES;
+use radiosity_simd::WIDE;
 use std::ops::Range;
 
-/// Columns of a band, over which sums are in single precision, and rows of a block.
+/// Columns of a band, and rows of a block, which are as many as numbers in a piece.
 pub(super) const WIDTH: usize = 512;
-pub(super) const BLOCK: usize = 16;
-pub(super) const PIECES: usize = WIDTH / LANES;
+pub(super) const BLOCK: usize = WIDE;
+pub(super) const PIECES: usize = WIDTH / WIDE;
 
-pub(super) type Lanes<T> = [T; LANES];
-/// Stretches of the rows of a block, all as long.
-pub(super) type Pieces<'a> = [&'a [Lanes<f32>]; BLOCK];
+/// So many numbers of a row, from a column on that is a multiple of that.
+pub(super) type Piece<T> = [T; WIDE];
+/// Something of each row of a block, for three vectors.
+pub(super) type OfRows<T> = Triple<[T; BLOCK]>;
 
 /// The columns of a band: their values and what is known of them.
 pub(super) struct Band {
-    pub(super) start: usize,
     pub(super) triples: Vec<OfBand>,
 }
 
 /// Three vectors on a band.
 pub(super) struct OfBand {
-    pub(super) x: Triple<[Lanes<f32>; PIECES]>,
-    /// The sums below the diagonal.
-    pub(super) below: Triple<[Lanes<f64>; PIECES]>,
-    /// The products of the next block's rows with this band.
-    pub(super) products: Triple<[f64; BLOCK]>,
+    pub(super) x: Triple<[Piece<f32>; PIECES]>,
+    /// The sums below the diagonal, and what the last blocks add to them.
+    pub(super) below: Triple<[Piece<f64>; PIECES]>,
+    pub(super) recent: Triple<[Piece<f32>; PIECES]>,
 }
 
-/// Some rows, left of their first column.
+/// The rows of a block, left of the first of them.
+#[derive(Clone, Copy)]
 pub(super) struct Block<'a> {
-    pub(super) first: usize,
     /// Where there are fewer rows, the last one again; its values are zero then.
-    rows: Pieces<'a>,
-    pub(super) values: Vec<Triple<[f32; BLOCK]>>,
+    rows: [&'a [Piece<f32>]; BLOCK],
+}
+
+/// The rows of a block in a band.
+#[derive(Clone)]
+pub(super) struct Stretch<'a> {
+    rows: &'a [&'a [Piece<f32>]; BLOCK],
+    pub(super) pieces: Range<usize>,
+}
+
+/// The rows of a block.
+pub(super) fn rows_of(block: usize, size: usize) -> Range<usize> {
+    let first = block * BLOCK;
+    first.min(size)..size.min(first + BLOCK)
+}
+
+/// Whether all values of a block are zero.
+pub(super) fn is_dark(values: &[OfRows<f32>]) -> bool {
+    let values = values.as_flattened().as_flattened();
+    values.iter().all(|&value| value == 0.0)
+}
+
+/// How many blocks there are.
+pub(super) fn blocks_of(matrix: &SymmetricMatrix) -> usize {
+    matrix.size().div_ceil(BLOCK)
 }
 
 impl<'a> Block<'a> {
-    /// Without values.
-    pub(super) fn new(
-        matrix: &'a SymmetricMatrix,
-        rows: &Range<usize>,
-        triples: usize,
-    ) -> Block<'a> {
-        let first = rows.start;
+    /// The block with a number, if there is one.
+    pub(super) fn new(matrix: &'a SymmetricMatrix, block: usize) -> Option<Block<'a>> {
+        let rows = rows_of(block, matrix.size());
+        let last = rows.end.checked_sub(1).filter(|_| !rows.is_empty())?;
+        let values = matrix.values();
         let row = |k: usize| {
-            let row = packed_row((first + k).min(rows.end - 1));
-            matrix.values()[row][..first].as_chunks().0
+            let row = packed_row(last.min(rows.start + k));
+            values[row][..rows.start].as_chunks().0
         };
-        Block {
-            first,
+        Some(Block {
             rows: std::array::from_fn(row),
-            values: vec![[[0.0; BLOCK]; 3]; triples],
-        }
+        })
     }
 
     /// The rows in a band.
-    #[inline(always)]
-    pub(super) fn pieces(&self, band: &Band) -> Pieces<'a> {
-        let (start, end) = (band.start / LANES, self.first / LANES);
-        let mut pieces = self.rows;
-        for row in &mut pieces {
-            *row = &row[start.min(end)..end.min(start + PIECES)];
+    pub(super) fn stretch(&self, band: usize) -> Stretch<'_> {
+        let pieces = self.rows[0].len();
+        let first = pieces.min(band * PIECES);
+        Stretch {
+            rows: &self.rows,
+            pieces: first..pieces.min(first + PIECES),
         }
-        pieces
+    }
+}
+
+impl<'a> Stretch<'a> {
+    /// Some of the rows, as far as so many pieces.
+    #[inline(always)]
+    pub(super) fn rows<const COUNT: usize>(
+        &self,
+        first: usize,
+        pieces: usize,
+    ) -> [&'a [Piece<f32>]; COUNT] {
+        let mut rows = [&[][..]; COUNT];
+        for (row, whole) in rows.iter_mut().zip(&self.rows[first..first + COUNT]) {
+            *row = &whole[self.pieces.clone()][..pieces];
+        }
+        rows
     }
 
-    /// With the values of its rows.
-    pub(super) fn with_values(mut self, values: &[Triple<f32>]) -> Block<'a> {
-        let triples = self.values.len();
-        for (row, of_row) in values.chunks_exact(triples).enumerate() {
-            for (triple, of_row) in self.values.iter_mut().zip(of_row) {
-                (0..3).for_each(|c| triple[c][row] = of_row[c]);
-            }
+    /// The same, as far as those of another stretch; where they are not as long, the other's.
+    #[inline(always)]
+    pub(super) fn rows_or<const COUNT: usize>(
+        &self,
+        other: &Stretch<'a>,
+        first: usize,
+    ) -> [&'a [Piece<f32>]; COUNT] {
+        let pieces = other.pieces.len();
+        if self.pieces.len() < pieces {
+            other.rows(first, pieces)
+        } else {
+            self.rows(first, pieces)
         }
-        self
     }
 }
 
 impl Band {
-    /// The band that starts at a column, with its values and no sums.
-    pub(super) fn new(start: usize, x: &[Triple<f32>], triples: usize) -> Band {
+    /// With its values and no sums.
+    pub(super) fn new(x: &[Triple<f32>], triples: usize) -> Band {
         let blank = || OfBand {
-            x: [[[0.0; LANES]; PIECES]; 3],
-            below: [[[0.0; LANES]; PIECES]; 3],
-            products: [[0.0; BLOCK]; 3],
+            x: [[[0.0; WIDE]; PIECES]; 3],
+            below: [[[0.0; WIDE]; PIECES]; 3],
+            recent: [[[0.0; WIDE]; PIECES]; 3],
         };
         let mut band = Band {
-            start,
             triples: (0..triples).map(|_| blank()).collect(),
         };
-        let end = x.len().min((start + WIDTH) * triples);
-        band.set_values(0, &x[start * triples..end]);
+        for (k, x) in x.iter().enumerate() {
+            let of_band = &mut band.triples[k % triples];
+            (0..3).for_each(|c| of_band.x[c].as_flattened_mut()[k / triples] = x[c]);
+        }
         band
     }
 
-    fn set_values(&mut self, column: usize, x: &[Triple<f32>]) {
-        let triples = self.triples.len();
-        for (k, x) in x.iter().enumerate() {
-            let of_band = &mut self.triples[k % triples];
-            (0..3).for_each(|c| of_band.x[c].as_flattened_mut()[column + k / triples] = x[c]);
-        }
-    }
-
-    /// The new values of some columns, and their first sums.
-    pub(super) fn set(&mut self, column: usize, x: &[Triple<f32>], below: &[Triple<f64>]) {
-        self.set_values(column, x);
-        let triples = self.triples.len();
-        for (k, below) in below.iter().enumerate() {
-            let of_band = &mut self.triples[k % triples];
-            (0..3)
-                .for_each(|c| of_band.below[c].as_flattened_mut()[column + k / triples] = below[c]);
-        }
-    }
-
-    /// Adds the products to the sums of the block's rows.
-    pub(super) fn add_products(&self, sums: &mut [Triple<f64>]) {
-        let triples = self.triples.len();
-        for (k, of_band) in self.triples.iter().enumerate() {
-            for row in 0..BLOCK {
-                let sum = &mut sums[row * triples + k];
-                (0..3).for_each(|c| sum[c] += of_band.products[c][row]);
+    /// The new values of a block's columns, and the first sums below them.
+    pub(super) fn set(&mut self, column: usize, x: &[OfRows<f32>], below: &[OfRows<f64>]) {
+        let piece = column / WIDE;
+        let of_triples = x.iter().zip(below);
+        for (of_band, (x, below)) in self.triples.iter_mut().zip(of_triples) {
+            for c in 0..3 {
+                of_band.x[c][piece] = x[c];
+                of_band.below[c][piece] = below[c];
             }
         }
     }

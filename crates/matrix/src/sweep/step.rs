@@ -1,19 +1,23 @@
 //! What one step of a sweep does on a band of columns.
 
 use super::Triple;
-use super::band::{BLOCK, Band, Block, Lanes, OfBand, PIECES, Pieces};
-use radiosity_simd::{Float, Kernel, Simd};
+use super::band::{BLOCK, Band, OfBand, OfRows, PIECES, Piece, Stretch};
+use radiosity_simd::{Float, Kernel, LANES, Simd, WideFloat};
 
-/// Rows whose products are taken together: their sums fit into the registers.
+/// Rows that are taken together: their sums, or their factors, fit into the registers.
 const QUAD: usize = 4;
-/// How many numbers ahead memory is asked for what comes next in a row.
-const AHEAD: usize = 512;
 
 /// A step on one band: adds the last block, and multiplies by the next one.
 pub(super) struct Step<'a> {
     pub(super) band: &'a mut Band,
-    pub(super) last: Option<&'a Block<'a>>,
-    pub(super) next: Option<&'a Block<'a>>,
+    /// The last block in this band, with its values.
+    pub(super) last: Option<(Stretch<'a>, &'a [OfRows<f32>])>,
+    /// The next block in this band, and where its products with the band go.
+    pub(super) next: Option<(Stretch<'a>, &'a mut [OfRows<f32>])>,
+    /// What the next step of this thread reads first.
+    pub(super) ahead: Option<Stretch<'a>>,
+    /// Whether what the last blocks added becomes part of the sums in double precision.
+    pub(super) settles: bool,
 }
 
 impl Kernel for Step<'_> {
@@ -21,130 +25,133 @@ impl Kernel for Step<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Step { band, last, next } = self;
-        for triple in &mut band.triples {
-            triple.products = [[0.0; BLOCK]; 3];
+        let triples = &mut self.band.triples;
+        if let Some((rows, values)) = &self.last {
+            for quad in 0..BLOCK / QUAD {
+                // The first triple's numbers come from far, and are still at hand for the others.
+                let mut of_triples = triples.iter_mut().zip(*values);
+                if let Some((triple, values)) = of_triples.next() {
+                    let ahead = self.ahead.as_ref().unwrap_or(rows);
+                    add::<S, true>(simd, rows, quad, ahead, values, &mut triple.recent);
+                }
+                for (triple, values) in of_triples {
+                    add::<S, false>(simd, rows, quad, rows, values, &mut triple.recent);
+                }
+            }
         }
-        // The first triple's numbers come from memory, and are still at hand for the others.
-        if let Some(last) = last {
-            let rows = last.pieces(band);
-            let mut triples = band.triples.iter_mut().zip(&last.values);
-            if let Some((triple, values)) = triples.next() {
-                add::<S, true>(simd, &rows, values, &mut triple.below);
-            }
-            for (triple, values) in triples {
-                add::<S, false>(simd, &rows, values, &mut triple.below);
+        if self.settles {
+            for triple in &mut *triples {
+                settle(simd, triple);
             }
         }
-        if let Some(next) = next {
-            let rows = next.pieces(band);
-            let mut triples = band.triples.iter_mut();
-            if let Some(triple) = triples.next() {
-                multiply::<S, true>(simd, &rows, triple);
-            }
-            for triple in triples {
-                multiply::<S, false>(simd, &rows, triple);
+        if let Some((rows, products)) = self.next {
+            for quad in 0..BLOCK / QUAD {
+                let mut of_triples = triples.iter().zip(&mut *products);
+                if let Some((triple, products)) = of_triples.next() {
+                    let ahead = self.ahead.as_ref().unwrap_or(&rows);
+                    multiply::<S, true>(simd, &rows, quad, ahead, &triple.x, products);
+                }
+                for (triple, products) in of_triples {
+                    multiply::<S, false>(simd, &rows, quad, &rows, &triple.x, products);
+                }
             }
         }
     }
 }
 
-/// Adds the rows times their values to the sums. `FETCH` has what is needed next fetched.
+/// Adds some rows times their values to the sums. `FETCH` has what is ahead fetched.
 #[inline(always)]
 fn add<S: Simd, const FETCH: bool>(
     simd: S,
-    rows: &Pieces<'_>,
-    values: &Triple<[f32; BLOCK]>,
-    sums: &mut Triple<[Lanes<f64>; PIECES]>,
+    rows: &Stretch<'_>,
+    quad: usize,
+    ahead: &Stretch<'_>,
+    values: &OfRows<f32>,
+    sums: &mut Triple<[Piece<f32>; PIECES]>,
 ) {
-    const AT_ONCE: usize = 4;
-    let pieces = rows[0].len();
-    let whole = pieces - pieces % AT_ONCE;
-    for first in (0..whole).step_by(AT_ONCE) {
-        add_pieces::<S, AT_ONCE, FETCH>(simd, rows, first, values, sums);
+    let first = quad * QUAD;
+    let count = rows.pieces.len();
+    let fetched = ahead.rows_or::<2>(rows, first);
+    let rows = rows.rows::<QUAD>(first, count);
+    let mut factors = [[simd.splat_wide(0.0); 3]; QUAD];
+    for k in 0..QUAD {
+        for c in 0..3 {
+            factors[k][c] = simd.splat_wide(values[c][first + k]);
+        }
     }
-    for first in whole..pieces {
-        add_pieces::<S, 1, false>(simd, rows, first, values, sums);
+    let [x, y, z] = sums;
+    let (x, y, z) = (&mut x[..count], &mut y[..count], &mut z[..count]);
+    for piece in 0..count {
+        if FETCH {
+            for row in fetched {
+                simd.prefetch(&row[piece]);
+            }
+        }
+        let mut sums = [
+            simd.wide(&x[piece]),
+            simd.wide(&y[piece]),
+            simd.wide(&z[piece]),
+        ];
+        for k in 0..QUAD {
+            let entries = simd.wide(&rows[k][piece]);
+            for c in 0..3 {
+                sums[c] = sums[c] + entries * factors[k][c];
+            }
+        }
+        x[piece] = sums[0].lanes();
+        y[piece] = sums[1].lanes();
+        z[piece] = sums[2].lanes();
     }
 }
 
 #[inline(always)]
-fn add_pieces<S: Simd, const COUNT: usize, const FETCH: bool>(
+fn settle<S: Simd>(simd: S, triple: &mut OfBand) {
+    for c in 0..3 {
+        let below = triple.below[c].as_flattened_mut().as_chunks_mut();
+        let recent = triple.recent[c].as_flattened_mut().as_chunks_mut();
+        for (below, recent) in below.0.iter_mut().zip(recent.0) {
+            *below = (simd.f64(below) + simd.widen(simd.f32(recent))).lanes();
+            *recent = [0.0; LANES];
+        }
+    }
+}
+
+/// The products of some rows with the values of a band. `FETCH` as in [`add`].
+#[inline(always)]
+fn multiply<S: Simd, const FETCH: bool>(
     simd: S,
-    rows: &Pieces<'_>,
-    first: usize,
-    values: &Triple<[f32; BLOCK]>,
-    sums: &mut Triple<[Lanes<f64>; PIECES]>,
+    rows: &Stretch<'_>,
+    quad: usize,
+    ahead: &Stretch<'_>,
+    [x, y, z]: &Triple<[Piece<f32>; PIECES]>,
+    products: &mut OfRows<f32>,
 ) {
-    let mut parts = [[simd.splat_f32(0.0); 3]; COUNT];
-    for row in 0..BLOCK {
-        let entries = &rows[row][first..first + COUNT];
+    let first = quad * QUAD;
+    let count = rows.pieces.len();
+    let fetched = ahead.rows_or::<QUAD>(rows, first);
+    let rows = rows.rows::<QUAD>(first, count);
+    let [x, y, z] = [&x[..count], &y[..count], &z[..count]];
+    let mut sums = [[simd.splat_wide(0.0); 3]; QUAD];
+    for piece in 0..count {
         if FETCH {
-            for pair in entries.as_chunks::<2>().0 {
-                simd.prefetch(&pair[0], AHEAD);
+            for row in fetched {
+                simd.prefetch(&row[piece]);
             }
         }
-        for c in 0..3 {
-            let value = simd.splat_f32(values[c][row]);
-            for k in 0..COUNT {
-                parts[k][c] = parts[k][c] + simd.f32(&entries[k]) * value;
+        let x = [
+            simd.wide(&x[piece]),
+            simd.wide(&y[piece]),
+            simd.wide(&z[piece]),
+        ];
+        for k in 0..QUAD {
+            let entries = simd.wide(&rows[k][piece]);
+            for c in 0..3 {
+                sums[k][c] = sums[k][c] + entries * x[c];
             }
         }
     }
     for c in 0..3 {
-        let sums = &mut sums[c][first..first + COUNT];
-        for k in 0..COUNT {
-            sums[k] = (simd.f64(&sums[k]) + simd.widen(parts[k][c])).lanes();
-        }
+        let totals = S::Wide::totals([sums[0][c], sums[1][c], sums[2][c], sums[3][c]]);
+        products[c][first..first + QUAD].copy_from_slice(&totals);
     }
-}
-
-/// Adds the products of rows with the values of a band. `FETCH` as in [`add`].
-#[inline(always)]
-fn multiply<S: Simd, const FETCH: bool>(simd: S, rows: &Pieces<'_>, triple: &mut OfBand) {
-    let [x, y, z] = &triple.x;
-    let x = [x, y, z].map(|x| x.as_chunks::<2>().0);
-    for quad in (0..BLOCK).step_by(QUAD) {
-        let rows: [&[[Lanes<f32>; 2]]; QUAD] =
-            std::array::from_fn(|k| rows[quad + k].as_chunks().0);
-        let mut sums = [[simd.splat_f32(0.0); 3]; QUAD];
-        for pair in 0..rows[0].len() {
-            let x = [&x[0][pair], &x[1][pair], &x[2][pair]];
-            let rows = [
-                &rows[0][pair],
-                &rows[1][pair],
-                &rows[2][pair],
-                &rows[3][pair],
-            ];
-            if FETCH {
-                for row in rows {
-                    simd.prefetch(&row[0], AHEAD);
-                }
-            }
-            for piece in 0..2 {
-                let x = [
-                    simd.f32(&x[0][piece]),
-                    simd.f32(&x[1][piece]),
-                    simd.f32(&x[2][piece]),
-                ];
-                for k in 0..QUAD {
-                    let entries = simd.f32(&rows[k][piece]);
-                    for c in 0..3 {
-                        sums[k][c] = sums[k][c] + entries * x[c];
-                    }
-                }
-            }
-        }
-        for (k, sums) in sums.iter().enumerate() {
-            for (c, &sum) in sums.iter().enumerate() {
-                triple.products[c][quad + k] += total(simd.widen(sum).lanes());
-            }
-        }
-    }
-}
-
-#[inline(always)]
-fn total(lanes: Lanes<f64>) -> f64 {
-    let [a, b, c, d, e, f, g, h] = lanes;
-    ((a + e) + (c + g)) + ((b + f) + (d + h))
 }

@@ -3,51 +3,86 @@
 //! A sweep has thousands of steps of some microseconds each, too short to call threads for. So
 //! helpers are called once and wait for the next step without sleeping. Each member has a run of
 //! bands of its own, the same from step to step but for a band or so, whose numbers are still in
-//! its cache; then it takes what is left of those of others, who may have come late or never. A
-//! claim on a band is a number that also tells the step, so whoever comes late claims nothing.
+//! its cache; then it takes what is left of those of others, who may have come late or never: from
+//! their end, so that it is the same bands again. A claim on a band is a number that also tells the
+//! step, so whoever comes late claims nothing.
 
-use super::band::{Band, Block};
-use super::step::Step;
+use super::Triple;
+use super::band::{BLOCK, Band, OfRows, WIDTH, is_dark};
+use super::member::Member;
+use super::shared::Shared;
+use crate::SymmetricMatrix;
 use radiosity_simd::InstructionSet;
 use std::hint::spin_loop;
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Mutex, MutexGuard, RwLock};
+use std::sync::{Mutex, MutexGuard};
 
 /// What is shared.
 pub(super) struct Team<'a> {
-    set: InstructionSet,
+    pub(super) set: InstructionSet,
+    pub(super) matrix: &'a SymmetricMatrix,
+    pub(super) triples: usize,
     bands: Vec<Mutex<Band>>,
-    task: RwLock<Task<'a>>,
-    /// Per member: the number of the step, times [`CLAIMS`], plus how many of its bands are claimed.
-    claims: Vec<AtomicU64>,
+    /// Which bands have values other than zero.
+    lit: Vec<AtomicBool>,
+    /// Those of the last block.
+    values: Shared,
+    /// Those of the next block with each band.
+    products: Shared,
+    /// Per member.
+    claims: Vec<Apart<AtomicU64>>,
     /// Bands of this step that are done.
-    done: AtomicUsize,
+    done: Apart<AtomicUsize>,
     is_over: AtomicBool,
 }
 
-/// One step.
+/// What would slow others down if it stood in the same line of memory.
 #[derive(Default)]
-struct Task<'a> {
-    number: u64,
-    /// The first so many bands.
-    bands: usize,
-    last: Option<Block<'a>>,
-    next: Option<Block<'a>>,
+#[repr(align(128))]
+struct Apart<T>(T);
+
+/// The end of a run that bands are taken from. Claims count those taken from each, and steps.
+#[derive(Clone, Copy)]
+pub(super) enum From {
+    Start = 1,
+    End = 1 << 20,
 }
 
-/// More than there are bands.
-const CLAIMS: u64 = 1 << 32;
+const STEP: u64 = 1 << 40;
 /// How often one looks before letting others have the processor.
-const PATIENCE: u32 = 256;
+const PATIENCE: u32 = 1024;
+
+/// A band that is one's own to work on.
+pub(super) struct Claim {
+    pub(super) block: usize,
+    pub(super) band: usize,
+    /// The run that it is of.
+    pub(super) run: Range<usize>,
+}
 
 impl<'a> Team<'a> {
-    pub(super) fn new(set: InstructionSet, bands: Vec<Band>, members: usize) -> Team<'a> {
+    pub(super) fn new(
+        set: InstructionSet,
+        matrix: &'a SymmetricMatrix,
+        x: &[Triple<f32>],
+        triples: usize,
+        members: usize,
+    ) -> Team<'a> {
+        let of_bands = || x.chunks(WIDTH * triples);
+        let bands = of_bands().map(|x| Mutex::new(Band::new(x, triples)));
+        let bands: Vec<Mutex<Band>> = bands.collect();
+        let is_lit = |x: &[Triple<f32>]| x.as_flattened().iter().any(|&x| x != 0.0);
         Team {
             set,
-            bands: bands.into_iter().map(Mutex::new).collect(),
-            task: RwLock::default(),
-            claims: (0..members).map(|_| AtomicU64::new(0)).collect(),
-            done: AtomicUsize::new(0),
+            matrix,
+            triples,
+            values: Shared::new(triples),
+            products: Shared::new(triples * bands.len()),
+            bands,
+            lit: of_bands().map(|x| AtomicBool::new(is_lit(x))).collect(),
+            claims: (0..members).map(|_| Apart::default()).collect(),
+            done: Apart::default(),
             is_over: AtomicBool::new(false),
         }
     }
@@ -61,83 +96,99 @@ impl<'a> Team<'a> {
         bands.map(|band| band.into_inner().expect("no step has panicked"))
     }
 
-    /// Leads a step on the first so many bands, and gives the next block back when it is done.
-    pub(super) fn lead(
-        &self,
-        bands: usize,
-        last: Option<Block<'a>>,
-        next: Option<Block<'a>>,
-    ) -> Option<Block<'a>> {
-        let number = {
-            let mut task = self.task.write().expect("no step has panicked");
-            let number = task.number + 1;
-            *task = Task {
-                number,
-                bands,
-                last,
-                next,
-            };
-            number
-        };
-        self.done.store(0, Ordering::Relaxed);
+    /// Whether a band has values other than zero.
+    pub(super) fn is_lit(&self, band: usize) -> bool {
+        self.lit[band].load(Ordering::Relaxed)
+    }
+
+    /// How many members there are.
+    pub(super) fn size(&self) -> usize {
+        self.claims.len()
+    }
+
+    /// Leads the step in which a block is the next one.
+    pub(super) fn lead(&self, block: usize, leader: &mut Member<'a, '_>) {
+        self.done.0.store(0, Ordering::Relaxed);
         for claims in &self.claims {
-            claims.store(number * CLAIMS, Ordering::Release);
+            claims.0.store((block as u64 + 1) * STEP, Ordering::Release);
         }
-        self.take_bands(0);
-        wait_while(|| self.done.load(Ordering::Acquire) < bands);
-        self.task.write().expect("no step has panicked").next.take()
+        leader.take_bands();
+        let bands = self.bands_of(block);
+        wait_while(|| self.done.0.load(Ordering::Acquire) < bands);
     }
 
     /// Takes part in all steps, as a member other than the first, until the team is dismissed.
-    pub(super) fn help(&self, member: usize) {
+    pub(super) fn help(&self, index: usize) {
+        let mut member = Member::new(self, index);
         while !self.is_over.load(Ordering::Acquire) {
-            let number = self.take_bands(member);
+            let seen = member.take_bands();
             wait_while(|| {
-                let is_same = self.claims[member].load(Ordering::Acquire) / CLAIMS == number;
+                let is_same = self.claims[index].0.load(Ordering::Acquire) / STEP == seen;
                 is_same && !self.is_over.load(Ordering::Acquire)
             });
         }
     }
 
-    /// Takes bands of the current step until there are no more; gives its number.
-    fn take_bands(&self, member: usize) -> u64 {
-        let number = self.take_bands_of(member);
-        for other in (member + 1..self.claims.len()).chain(0..member) {
-            self.take_bands_of(other);
-        }
-        number
+    /// Claims a band of a member, in the step whose number comes too.
+    pub(super) fn claim(&self, owner: usize, from: From) -> (u64, Option<Claim>) {
+        let claims = self.claims[owner]
+            .0
+            .fetch_add(from as u64, Ordering::AcqRel);
+        let number = claims / STEP;
+        let claim = |block: u64| {
+            let block = block as usize;
+            let bound = |member: usize| member * self.bands_of(block) / self.size();
+            let run = bound(owner)..bound(owner + 1);
+            let (before, after) = (claims % From::End as u64, claims % STEP / From::End as u64);
+            let left = run.start + before as usize..run.end.saturating_sub(after as usize);
+            let band = match from {
+                From::Start => left.clone().next(),
+                From::End => left.clone().next_back(),
+            };
+            band.map(|band| Claim { block, band, run })
+        };
+        (number, number.checked_sub(1).and_then(claim))
     }
 
-    fn take_bands_of(&self, owner: usize) -> u64 {
-        loop {
-            let claim = self.claims[owner].fetch_add(1, Ordering::AcqRel);
-            let number = claim / CLAIMS;
-            let task = self.task.read().expect("no step has panicked");
-            let bound = |member: usize| member * task.bands / self.claims.len();
-            let index = bound(owner) + (claim % CLAIMS) as usize;
-            if task.number != number || index >= bound(owner + 1) {
-                return number;
-            }
-            let _count = CountWhenDone(&self.done);
-            self.set.run(Step {
-                band: &mut self.band(index),
-                last: task.last.as_ref(),
-                next: task.next.as_ref(),
-            });
+    /// Tells that a member has done so many bands.
+    pub(super) fn count(&self, bands: usize) {
+        self.done.0.fetch_add(bands, Ordering::AcqRel);
+    }
+
+    /// How many bands there are left of a block.
+    fn bands_of(&self, block: usize) -> usize {
+        self.bands.len().min((block * BLOCK).div_ceil(WIDTH))
+    }
+
+    /// The values of the block before.
+    pub(super) fn values(&self, values: &mut [OfRows<f32>]) {
+        self.values.get(0, values);
+    }
+
+    /// Sets those of a block at the end of its step, and the first sums below its rows.
+    pub(super) fn set_values(&self, block: usize, values: &[OfRows<f32>], below: &[OfRows<f64>]) {
+        self.values.set(0, values);
+        let (band, column) = (block * BLOCK / WIDTH, block * BLOCK % WIDTH);
+        self.band(band).set(column, values, below);
+        if !is_dark(values) {
+            self.lit[band].store(true, Ordering::Relaxed);
+        }
+    }
+
+    pub(super) fn set_products(&self, band: usize, products: &[OfRows<f32>]) {
+        self.products.set(band * self.triples, products);
+    }
+
+    /// The sums of a block's products with all bands.
+    pub(super) fn add_products(&self, block: usize, sums: &mut [OfRows<f64>]) {
+        for band in 0..self.bands_of(block) {
+            self.products.add_to(sums, band * self.triples);
         }
     }
 
     /// Sends the helpers away, be it by a panic.
     pub(super) fn dismissed_at_end(&self) -> impl Drop {
         Dismissal(&self.is_over)
-    }
-}
-
-struct CountWhenDone<'a>(&'a AtomicUsize);
-
-impl Drop for CountWhenDone<'_> {
-    fn drop(&mut self) {
-        self.0.fetch_add(1, Ordering::AcqRel);
     }
 }
 

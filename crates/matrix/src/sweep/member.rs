@@ -1,0 +1,113 @@
+//! What one thread knows of a sweep, and does in it.
+
+use super::band::{Block, OfRows, Stretch, blocks_of, is_dark};
+use super::step::Step;
+use super::team::{Claim, From, Team};
+
+/// After so many blocks, sums in single precision become part of those in double precision.
+const SETTLING: usize = 4;
+
+/// One of a team.
+pub(super) struct Member<'a, 't> {
+    team: &'t Team<'a>,
+    index: usize,
+    /// The number of the next block.
+    block: Option<usize>,
+    last: Option<Block<'a>>,
+    next: Option<Block<'a>>,
+    after_next: Option<Block<'a>>,
+    /// Those of the last block.
+    values: Vec<OfRows<f32>>,
+    /// Those of the next block with a band.
+    products: Vec<OfRows<f32>>,
+}
+
+impl<'a, 't> Member<'a, 't> {
+    pub(super) fn new(team: &'t Team<'a>, index: usize) -> Member<'a, 't> {
+        let of_triples = || vec![OfRows::default(); team.triples];
+        Member {
+            team,
+            index,
+            block: None,
+            last: None,
+            next: None,
+            after_next: None,
+            values: of_triples(),
+            products: of_triples(),
+        }
+    }
+
+    /// Takes bands of the current step until there are no more; gives its number.
+    pub(super) fn take_bands(&mut self) -> u64 {
+        let (number, mut bands) = self.take_run(self.index, From::Start);
+        for other in (self.index + 1..self.team.size()).chain(0..self.index) {
+            bands += self.take_run(other, From::End).1;
+        }
+        if bands > 0 {
+            self.team.count(bands);
+        }
+        number
+    }
+
+    /// Takes what is left of a run; gives the number of the step, and how many bands it took.
+    fn take_run(&mut self, owner: usize, from: From) -> (u64, usize) {
+        let mut bands = 0;
+        loop {
+            let (number, claim) = self.team.claim(owner, from);
+            let Some(claim) = claim else {
+                return (number, bands);
+            };
+            self.turn_to(claim.block);
+            self.step(&claim);
+            bands += 1;
+        }
+    }
+
+    fn turn_to(&mut self, block: usize) {
+        let matrix = self.team.matrix;
+        if self.block == Some(block) {
+            return;
+        }
+        if self.block.map(|before| before + 1) == Some(block) {
+            (self.last, self.next) = (self.next, self.after_next);
+        } else {
+            self.last = block
+                .checked_sub(1)
+                .and_then(|last| Block::new(matrix, last));
+            self.next = Block::new(matrix, block);
+        }
+        self.after_next = Block::new(matrix, block + 1);
+        self.team.values(&mut self.values);
+        self.last = self.last.take().filter(|_| !is_dark(&self.values));
+        self.block = Some(block);
+    }
+
+    fn step(&mut self, claim: &Claim) {
+        let (team, band) = (self.team, claim.band);
+        let last = self.last.as_ref().map(|last| last.stretch(band));
+        let next = lit(team, &self.next, band);
+        let ahead = if band + 1 < claim.run.end {
+            lit(team, &self.next, band + 1)
+        } else {
+            lit(team, &self.after_next, claim.run.start)
+        };
+        if next.is_none() {
+            self.products.fill(OfRows::default());
+        }
+        let is_at_end = claim.block == blocks_of(team.matrix);
+        team.set.run(Step {
+            band: &mut team.band(band),
+            last: last.map(|last| (last, &self.values[..])),
+            next: next.map(|next| (next, &mut self.products[..])),
+            ahead,
+            settles: is_at_end || claim.block.is_multiple_of(SETTLING),
+        });
+        team.set_products(band, &self.products);
+    }
+}
+
+/// A block in a band, unless that is dark, so that there is nothing to multiply.
+fn lit<'b>(team: &Team<'_>, block: &'b Option<Block<'_>>, band: usize) -> Option<Stretch<'b>> {
+    let block = block.as_ref().filter(|_| team.is_lit(band));
+    block.map(|block| block.stretch(band))
+}
