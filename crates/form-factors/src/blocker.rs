@@ -10,7 +10,7 @@ use radiosity_simd::{Float, Simd};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Blocker {
     pub(crate) planes: [Plane; PLANES],
-    corners: [DVec3; 4],
+    pub(crate) corners: [DVec3; 4],
 }
 
 pub(crate) const PLANES: usize = 5;

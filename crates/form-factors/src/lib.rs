@@ -29,6 +29,7 @@ mod far;
 mod fixed;
 mod gauss;
 mod hidden;
+mod hull;
 mod lines;
 mod lumped;
 mod monte_carlo;
@@ -60,7 +61,7 @@ pub use tally::{ClassFacts, Classes, Tally};
 
 /// Raise it whenever the same mesh would give other form factors, because of a change here, in
 /// `geometry`, or in the random numbers: it is part of their key.
-pub const VERSION: u32 = 9;
+pub const VERSION: u32 = 10;
 
 /// How the double integral of a pair is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,6 +1,7 @@
 //! *Classify*: what may stand between two parts of the scene, from the coarse to the fine.
 
 use crate::blocker::{Blocker, Effect};
+use crate::hull::Hull;
 use crate::part::Part;
 use radiosity_geometry::{DVec3, FaceId, Mesh, Occluders, Patch, Walls};
 use radiosity_simd::{Kernel, Simd, dispatch};
@@ -119,6 +120,18 @@ impl Kernel for Narrow<'_> {
                 Effect::Hides | Effect::Partly => partly.push(face),
                 Effect::Nothing => {}
             }
+        }
+        if !partly.is_empty()
+            && let Some(hull) = Hull::of(simd, self.ends, tolerance)
+        {
+            let mut kept = 0;
+            for k in 0..partly.len() {
+                if !hull.is_clear_of(simd, self.obstacles.blocker(partly[k])) {
+                    partly[kept] = partly[k];
+                    kept += 1;
+                }
+            }
+            partly.truncate(kept);
         }
         Some(partly)
     }

@@ -72,6 +72,11 @@ impl Part {
         self.corners.len()
     }
 
+    /// Its corners, if it lies on a face.
+    pub(crate) fn polygon(&self) -> Option<&[DVec3; 4]> {
+        self.corners.as_slice().try_into().ok()
+    }
+
     pub(crate) fn bounds(&self) -> Aabb {
         Aabb::around(self.corners.iter().copied())
     }
