@@ -1,6 +1,8 @@
 //! Which part of a patch is hidden, by what rays from its cells have met: of each cell, the weights of
 //! all rays and of those that met backs.
 
+use radiosity_simd::LANES;
+
 /// Where backs are more than this share of what a point sees, it lies inside of something, or right under
 /// it. Under a low table that is open at its sides less is seen of backs, and some light arrives.
 const HIDDEN: f64 = 0.95;
@@ -8,6 +10,33 @@ const HIDDEN: f64 = 0.95;
 const SUSPICIOUS: f64 = 0.9;
 /// And a part of it, where they are more than this, and twice what they are in all cells.
 const PARTLY_SUSPICIOUS: f64 = 0.6;
+
+/// Where on the patch eight rays started, the weight of each, and which of them met backs.
+pub(crate) struct Starts {
+    /// Coordinates from 0 to 1.
+    pub(crate) on_patch: [[f64; LANES]; 2],
+    pub(crate) weights: [f64; LANES],
+    pub(crate) backs: u8,
+}
+
+/// Of a square of cells, so many along each edge, the weights of all rays and of those that met backs;
+/// no cells if no ray did.
+pub(crate) fn by_cell(starts: &[Starts], edge: usize) -> Vec<[f64; 2]> {
+    if starts.iter().all(|starts| starts.backs == 0) {
+        return Vec::new();
+    }
+    let mut cells = vec![[0.0; 2]; edge * edge];
+    for starts in starts {
+        let [u, v] = &starts.on_patch;
+        for (lane, weight) in starts.weights.iter().enumerate() {
+            let along = |x: f64| ((x * edge as f64) as usize).min(edge - 1);
+            let cell = &mut cells[along(u[lane]) * edge + along(v[lane])];
+            cell[0] += weight;
+            cell[1] += weight * f64::from(starts.backs >> lane & 1);
+        }
+    }
+    cells
+}
 
 /// Whether cells of which a patch sees backs by so much on average tell of a hidden part.
 pub(crate) fn is_suspicious(cells: &[[f64; 2]], mean: f64) -> bool {
@@ -17,8 +46,12 @@ pub(crate) fn is_suspicious(cells: &[[f64; 2]], mean: f64) -> bool {
 }
 
 /// The visible share of a square of cells, by the weights of their rays. A cell beside a hidden one may
-/// be hidden in part, and then sees more of backs than cells elsewhere do.
+/// be hidden in part, and then sees more of backs than cells elsewhere do. All is visible if there are no
+/// cells.
 pub(crate) fn visible_share(cells: &[[f64; 2]]) -> f64 {
+    if cells.is_empty() {
+        return 1.0;
+    }
     let edge = cells.len().isqrt();
     let is_hidden = |cell: usize| cells[cell][1] > HIDDEN * cells[cell][0];
     let is_beside_hidden = |cell: usize| {

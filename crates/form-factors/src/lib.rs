@@ -19,6 +19,7 @@
 //! invalidate what it computed.
 
 mod accurate;
+mod ahead;
 mod blocker;
 mod closure;
 mod contour;

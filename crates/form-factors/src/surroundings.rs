@@ -3,11 +3,11 @@
 //! Measured by rays, independently of the factors: together they account for everything that a
 //! patch sees.
 
-use crate::blocker::{Blocker, Plane};
-use crate::hidden::{is_suspicious, visible_share};
+use crate::ahead::{Ahead, Met};
+use crate::hidden::{Starts, by_cell, is_suspicious, visible_share};
 use crate::obstacles::Obstacles;
 use crate::random::Stream;
-use crate::target::{Points, Target, dot, height, points};
+use crate::target::{Points, Target, points};
 use crate::visible::{Shifts, coordinate, ratio, shifts};
 use radiosity_geometry::{DVec3, FaceId, Mesh, Patch, Ray};
 use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
@@ -30,8 +30,6 @@ const CLOSE_LOOK: Effort = Effort {
 };
 /// Tells these shifts from those of pairs of patches.
 const SEED: u64 = 1;
-/// So many faces are tried in turn; more are found by a tree.
-const FASTER_THAN_TREE: usize = 32;
 
 /// Shares of all that a patch sees, by form factor. Faces without patches count as backs, from
 /// either side.
@@ -50,19 +48,19 @@ struct Sums {
     all: [f64; LANES],
     backs: [f64; LANES],
     background: [f64; LANES],
-    /// Of each cell of the patch, the weights of all rays and of those that met backs.
+    /// Of each cell of the patch, as [`by_cell`] has them.
     cells: Vec<[f64; 2]>,
 }
 
 /// Looks around from the patch of this index.
 pub(crate) fn look_around(mesh: &Mesh, obstacles: &Obstacles, index: usize) -> Surroundings {
     let patch = &mesh.patches[index];
-    let walls = in_front(obstacles, patch);
+    let ahead = Ahead::of(patch, obstacles);
     let look = |effort: Effort| {
         dispatch(Look {
             obstacles,
             patch,
-            in_front: walls.as_deref(),
+            ahead: ahead.as_ref(),
             shifts: &shifts(Stream::of_pair(SEED, index, index)),
             effort,
         })
@@ -87,42 +85,11 @@ pub(crate) fn look_around(mesh: &Mesh, obstacles: &Obstacles, index: usize) -> S
     }
 }
 
-/// The walls in front of a patch, unless there are too many in the scene.
-fn in_front<'a>(obstacles: &'a Obstacles, patch: &Patch) -> Option<Vec<Wall<'a>>> {
-    let polygons = &obstacles.walls.polygons;
-    if polygons.len() > FASTER_THAN_TREE {
-        return None;
-    }
-    let plane = Plane::through(patch.centroid, patch.normal);
-    let tolerance = obstacles.occluders.plane_tolerance();
-    let own = obstacles.wall(patch);
-    let ids = (0..polygons.len() as u32).map(FaceId);
-    let is_in_front = |id: &FaceId| {
-        let corners = polygons[id.index()].corners().iter();
-        *id != own && corners.map(|&c| plane.height(c)).any(|h| h > tolerance)
-    };
-    let wall = |id: FaceId| Wall {
-        blocker: obstacles.blocker(id),
-        bare: if obstacles.walls.bare[id.index()] {
-            !0
-        } else {
-            0
-        },
-    };
-    Some(ids.filter(is_in_front).map(wall).collect())
-}
-
-/// What may be met.
-struct Wall<'a> {
-    blocker: &'a Blocker,
-    /// All lanes, if neither side is a front.
-    bare: u8,
-}
-
 struct Look<'a> {
     obstacles: &'a Obstacles,
     patch: &'a Patch,
-    in_front: Option<&'a [Wall<'a>]>,
+    /// Unless there are too many walls.
+    ahead: Option<&'a Ahead>,
     shifts: &'a Shifts,
     effort: Effort,
 }
@@ -135,12 +102,6 @@ struct Rays<F> {
     direction: [F; 3],
 }
 
-/// What rays have met, one bit per lane.
-struct Met {
-    backs: u8,
-    nothing: u8,
-}
-
 impl Kernel for Look<'_> {
     type Output = Sums;
 
@@ -150,30 +111,28 @@ impl Kernel for Look<'_> {
         let (mut all, mut backs, mut background) = (zero, zero, zero);
         let target = Target::new(self.patch);
         let Effort { rays: count, cells } = self.effort;
-        let mut of_cells = vec![[0.0; 2]; cells * cells];
+        let mut starts = Vec::with_capacity(count);
         for k in 0..count {
             let rays = rays(simd, (self.patch, &target), k, self.shifts);
-            let met = match self.in_front {
-                Some(walls) => meet(simd, walls, &rays),
+            let met = match self.ahead {
+                Some(ahead) => ahead.meet(simd, &rays.from, rays.direction),
                 None => trace(self.obstacles, self.obstacles.wall(self.patch), &rays),
             };
             let weight = rays.from.area;
             all = all + weight;
             backs = backs + weight.select(met.backs, zero);
             background = background + weight.select(met.nothing, zero);
-            let (u, v) = (rays.on_patch[0].lanes(), rays.on_patch[1].lanes());
-            for (lane, weight) in weight.lanes().into_iter().enumerate() {
-                let along = |x: f64| ((x * cells as f64) as usize).min(cells - 1);
-                let cell = &mut of_cells[along(u[lane]) * cells + along(v[lane])];
-                cell[0] += weight;
-                cell[1] += weight * f64::from(met.backs >> lane & 1);
-            }
+            starts.push(Starts {
+                on_patch: rays.on_patch.map(Float::lanes),
+                weights: weight.lanes(),
+                backs: met.backs,
+            });
         }
         Sums {
             all: all.lanes(),
             backs: backs.lanes(),
             background: background.lanes(),
-            cells: of_cells,
+            cells: by_cell(&starts, cells),
         }
     }
 }
@@ -236,41 +195,6 @@ fn sin_cos<S: Simd>(simd: S, x: S::F64) -> [S::F64; 2] {
         cos = one - square * cos * simd.splat_f64(1.0 / (k * (k - 1.0)));
     }
     [x * sin, cos]
-}
-
-/// What rays meet first of some walls.
-///
-/// A ray meets a wall if it comes nearer to its plane, and if where it crosses that its height over
-/// each edge, times a positive number, is not negative.
-#[inline(always)]
-fn meet<S: Simd>(simd: S, walls: &[Wall<'_>], rays: &Rays<S::F64>) -> Met {
-    let zero = simd.splat_f64(0.0);
-    let [x, y, z] = rays.direction;
-    let mut nearest = simd.splat_f64(f64::INFINITY);
-    let mut met = Met {
-        backs: 0,
-        nothing: !0,
-    };
-    for wall in walls {
-        let [plane, edges @ ..] = &wall.blocker.planes;
-        let (from, along) = (
-            height(simd, plane, &rays.from),
-            dot(simd, plane.normal, x, y, z),
-        );
-        let (distance, speed) = (from.max(-from), along.max(-along));
-        let mut hits = (from * along).less(zero);
-        for edge in edges {
-            let at =
-                height(simd, edge, &rays.from) * speed + dot(simd, edge.normal, x, y, z) * distance;
-            hits &= zero.less_or_equal(at);
-        }
-        let at = distance / speed;
-        hits &= at.less(nearest);
-        nearest = at.select(hits, nearest);
-        met.backs = met.backs & !hits | (from.less(zero) | wall.bare) & hits;
-        met.nothing &= !hits;
-    }
-    met
 }
 
 /// What rays meet first of all faces but one.

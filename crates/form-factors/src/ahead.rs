@@ -1,0 +1,215 @@
+//! The few walls in front of a patch, and which of them rays from it meet first.
+
+use crate::blocker::{PLANES, Plane};
+use crate::obstacles::Obstacles;
+use crate::target::Points;
+use radiosity_geometry::{DVec3, FaceId, Patch};
+use radiosity_simd::{Float, Simd};
+
+/// So many walls are tried in turn; more are found by a tree.
+const FASTER_THAN_TREE: usize = 32;
+/// How far outwards edges are moved, in units of the largest distance: what single precision rounds off
+/// products of distances and speeds. Else a ray in millions slips through between two walls.
+const MARGIN: f32 = 8.0 * f32::EPSILON;
+
+/// The walls in front of a patch.
+pub(crate) struct Ahead {
+    centroid: DVec3,
+    walls: Vec<Wall>,
+    margin: f32,
+}
+
+struct Wall {
+    planes: [LocalPlane; PLANES],
+    /// All lanes, if neither side is a front.
+    bare: u8,
+}
+
+/// A plane relative to the patch's centroid: what is near keeps its digits.
+struct LocalPlane {
+    normal: [f32; 3],
+    /// Of the centroid.
+    height: f32,
+}
+
+/// What rays have met, one bit per lane.
+pub(crate) struct Met {
+    pub(crate) backs: u8,
+    pub(crate) nothing: u8,
+}
+
+impl Ahead {
+    /// Nothing if there are too many walls in the scene.
+    pub(crate) fn of(patch: &Patch, obstacles: &Obstacles) -> Option<Ahead> {
+        let polygons = &obstacles.walls.polygons;
+        if polygons.len() > FASTER_THAN_TREE {
+            return None;
+        }
+        let plane = Plane::through(patch.centroid, patch.normal);
+        let tolerance = obstacles.occluders.plane_tolerance();
+        let own = obstacles.wall(patch);
+        let mut ahead = Ahead {
+            centroid: patch.centroid,
+            walls: Vec::with_capacity(polygons.len()),
+            margin: 0.0,
+        };
+        for (k, polygon) in polygons.iter().enumerate() {
+            let id = FaceId(k as u32);
+            let corners = polygon.corners().iter();
+            if id == own || corners.clone().all(|&c| plane.height(c) <= tolerance) {
+                continue;
+            }
+            let planes = &obstacles.blocker(id).planes;
+            ahead.walls.push(Wall {
+                planes: planes.map(|plane| LocalPlane::new(plane, patch.centroid)),
+                bare: if obstacles.walls.bare[k] { !0 } else { 0 },
+            });
+            let distance = |&corner: &DVec3| corner.distance(patch.centroid) as f32;
+            let farthest = corners.map(distance).fold(0.0, f32::max);
+            ahead.margin = ahead.margin.max(MARGIN * farthest);
+        }
+        Some(ahead)
+    }
+
+    /// What rays from points of the patch, in directions of unit length, meet first.
+    ///
+    /// A ray meets a wall if it comes nearer to its plane, and if where it crosses that its height over
+    /// each edge, times a positive number, is not negative.
+    #[inline(always)]
+    pub(crate) fn meet<S: Simd>(
+        &self,
+        simd: S,
+        from: &Points<S::F64>,
+        direction: [S::F64; 3],
+    ) -> Met {
+        let (zero, outside) = (simd.splat_f32(0.0), simd.splat_f32(-self.margin));
+        let from = [
+            simd.narrow(from.x - simd.splat_f64(self.centroid.x)),
+            simd.narrow(from.y - simd.splat_f64(self.centroid.y)),
+            simd.narrow(from.z - simd.splat_f64(self.centroid.z)),
+        ];
+        let [x, y, z] = direction;
+        let direction = [simd.narrow(x), simd.narrow(y), simd.narrow(z)];
+        let mut nearest = simd.splat_f32(f32::INFINITY);
+        let mut met = Met {
+            backs: 0,
+            nothing: !0,
+        };
+        for wall in &self.walls {
+            let [plane, edges @ ..] = &wall.planes;
+            let (height, rise) = (plane.height(simd, from), plane.rise(simd, direction));
+            let (distance, speed) = (height.max(-height), rise.max(-rise));
+            let mut hits = (height * rise).less(zero);
+            for edge in edges {
+                let at = edge.height(simd, from) * speed + edge.rise(simd, direction) * distance;
+                hits &= outside.less_or_equal(at);
+            }
+            let at = distance / speed;
+            hits &= at.less(nearest);
+            nearest = at.select(hits, nearest);
+            met.backs = met.backs & !hits | (height.less(zero) | wall.bare) & hits;
+            met.nothing &= !hits;
+        }
+        met
+    }
+}
+
+impl LocalPlane {
+    fn new(plane: Plane, centroid: DVec3) -> LocalPlane {
+        LocalPlane {
+            normal: plane.normal.as_vec3().to_array(),
+            height: plane.height(centroid) as f32,
+        }
+    }
+
+    /// How fast rays in these directions rise over it.
+    #[inline(always)]
+    fn rise<S: Simd>(&self, simd: S, [x, y, z]: [S::F32; 3]) -> S::F32 {
+        let [nx, ny, nz] = self.normal;
+        simd.splat_f32(nx) * x + simd.splat_f32(ny) * y + simd.splat_f32(nz) * z
+    }
+
+    /// Of points relative to the centroid.
+    #[inline(always)]
+    fn height<S: Simd>(&self, simd: S, point: [S::F32; 3]) -> S::F32 {
+        self.rise(simd, point) + simd.splat_f32(self.height)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::target::{Target, points};
+    use radiosity_geometry::{Divisions, Shape, Surface, subdivide};
+    use radiosity_simd::{InstructionSet, Kernel, LANES};
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg64Mcg;
+
+    /// Rays from random points of a patch to these points.
+    struct ToPoints<'a>(&'a Patch, &'a Ahead, [DVec3; LANES]);
+
+    impl Kernel for ToPoints<'_> {
+        type Output = Met;
+
+        #[inline(always)]
+        fn run<S: Simd>(self, simd: S) -> Met {
+            let ToPoints(patch, ahead, to) = self;
+            let coordinates = std::array::from_fn(|lane| (0.37 * lane as f64 + 0.1).fract());
+            let u = simd.f64(&coordinates);
+            let from = points(simd, &Target::new(patch), u, u * u);
+            let starts = from.lanes();
+            let mut directions = [[0.0; LANES]; 3];
+            for (lane, to) in to.iter().enumerate() {
+                let start = DVec3::from_array(starts.map(|axis| axis[lane]));
+                let direction = (to - start).normalize().to_array();
+                for axis in 0..3 {
+                    directions[axis][lane] = direction[axis];
+                }
+            }
+            let [x, y, z] = &directions;
+            ahead.meet(simd, &from, [simd.f64(x), simd.f64(y), simd.f64(z)])
+        }
+    }
+
+    /// Rays to where walls of a room meet, which is slanted and far from the origin.
+    #[test]
+    fn nothing_slips_through_between_walls() {
+        let [x, y] = [DVec3::new(2.4, 1.8, 0.0), DVec3::new(-1.2, 1.6, 0.1)];
+        let z = DVec3::new(0.4, -0.3, 1.7);
+        let corner = DVec3::new(100.3, -70.1, 31.0);
+        let walls = [
+            (corner, x, y),
+            (corner + z, y, x),
+            (corner, z, x),
+            (corner + y, x, z),
+            (corner, y, z),
+            (corner + x, z, y),
+        ];
+        let surfaces = walls.map(|(corner, edge_a, edge_b)| Surface {
+            shape: Shape::Parallelogram {
+                corner,
+                edge_a,
+                edge_b,
+            },
+            divisions: None,
+        });
+        let mesh = subdivide(&surfaces, Divisions::uniform(5)).unwrap();
+        let obstacles = Obstacles::new(&mesh);
+        let mut rng = Pcg64Mcg::seed_from_u64(11);
+        for patch in &mesh.patches[..25] {
+            let ahead = Ahead::of(patch, &obstacles).unwrap();
+            for (start, along) in [
+                (corner + z, x),
+                (corner + y + z, x),
+                (corner, z),
+                (corner + x, z),
+            ] {
+                let to = std::array::from_fn(|_| start + rng.random_range(0.01..1.0) * along);
+                for set in InstructionSet::available() {
+                    let met = set.run(ToPoints(patch, &ahead, to));
+                    assert_eq!([met.backs, met.nothing], [0, 0]);
+                }
+            }
+        }
+    }
+}
