@@ -9,7 +9,7 @@ use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
 use std::ops::Range;
 
 /// Samples under each shift to begin with, and at most.
-const FEWEST: usize = 8;
+const FEWEST: usize = 4;
 const MOST: usize = 8192;
 
 /// A share with its standard error.
@@ -126,8 +126,10 @@ pub(crate) fn ratio(part: &[f64; LANES], all: &[f64; LANES]) -> (f64, f64) {
 
 /// Generates a lattice in the order of van der Corput, so that every power of two of its points
 /// is a lattice too (Cools, Kuo & Nuyens, "Constructing Embedded Lattice Rules for Multivariate
-/// Integration", 2006).
-const GENERATOR: [u32; 4] = [1, 182_667, 469_891, 498_753];
+/// Integration", 2006). Found bit by bit, with the 4000 best of each size kept, by the variance that
+/// folded lattices leave in three coordinates and in four; sizes of 16 to 128 points count most. What is
+/// published is made for thousands of points.
+const GENERATOR: [u32; 4] = [1, 7597, 3013, 7805];
 
 /// A coordinate of the `k`-th point of the lattice.
 #[inline(always)]
