@@ -1,12 +1,13 @@
 //! The visible share of a pair, line by line: seen from a point on one patch, the shadows of
 //! convex blockers on a line across the other are intervals, and what light passes between them is
-//! known in closed form. What is left to sample is continuous, and needs far fewer samples than
-//! points do.
+//! known in closed form. What is left to sample is continuous but where a line runs along the edge of
+//! a shadow, and needs far fewer samples than points do.
 
-use crate::blocker::{Blocker, Plane};
-use crate::target::{Points, Target, at, dot, height, points};
+use crate::blocker::{Blocker, PLANES, Plane};
+use crate::target::{Fan, Points, Target, dot, height, points};
 use crate::visible::{Sampler, Shifts, coordinate};
 use arrayvec::ArrayVec;
+use radiosity_geometry::DVec3;
 use radiosity_simd::{Float, Simd, angle};
 
 /// More blockers are not worth sorting.
@@ -20,30 +21,34 @@ pub(crate) struct Lines<'a> {
 }
 
 /// A blocker as lines across a patch see it: its planes.
-struct Screen([Side; 5]);
+struct Screen([Side; PLANES]);
 
-/// A plane, and the heights over it of the starts and the ends of lines: of the first line, and what
-/// they grow up to the last.
+/// A plane, and the heights of each fan over it.
 struct Side {
     plane: Plane,
-    starts: [f64; 2],
-    ends: [f64; 2],
+    fans: [Heights; 2],
+}
+
+/// The heights over a plane of a fan's apex, and how those of the starts and the ends of lines
+/// differ from it where lines are longest.
+#[derive(Clone, Copy, Default)]
+struct Heights {
+    apex: f64,
+    sides: [f64; 2],
 }
 
 impl<'a> Lines<'a> {
     /// There are at most [`MOST_BLOCKERS`].
     pub(crate) fn new(from: &'a Target, across: &'a Target, blockers: &[Blocker]) -> Lines<'a> {
-        let corners = across.line_ends();
         let side = |plane: Plane| {
-            let [starts, ends] = corners.map(|[first, last]| {
-                let height = plane.height(first);
-                [height, plane.height(last) - height]
-            });
-            Side {
-                plane,
-                starts,
-                ends,
+            let mut fans = [Heights::default(); 2];
+            for (heights, fan) in fans.iter_mut().zip(&across.fans) {
+                *heights = Heights {
+                    apex: plane.height(fan.apex),
+                    sides: fan.sides.map(|side| plane.normal.dot(side)),
+                };
             }
+            Side { plane, fans }
         };
         let screen = |blocker: &Blocker| Screen(blocker.planes.map(side));
         Lines {
@@ -61,14 +66,8 @@ struct Interval<F> {
     to: F,
 }
 
-/// A line across a patch.
-struct Line<F> {
-    start: Points<F>,
-    end: Points<F>,
-}
-
 /// The kernel along a line, from a point: with `s` the parameter counted from the foot of the
-/// perpendicular, `(constant + linear s + square s^2) / (s^2 + distance^2)^2`.
+/// perpendicular, `(constant + linear s) / (s^2 + distance^2)^2`.
 struct Light<F> {
     /// The parameter of the foot.
     foot: F,
@@ -76,7 +75,6 @@ struct Light<F> {
     squared: F,
     constant: F,
     linear: F,
-    square: F,
     /// The part of the line in front of the point's patch.
     bright: Interval<F>,
 }
@@ -94,88 +92,106 @@ impl Sampler for Lines<'_> {
             coordinate(simd, k, 1, shifts),
         );
         let p = points(simd, self.from, u, v);
-        let number = coordinate(simd, k, 2, shifts);
-        let line = line(simd, self.across, number);
-        let light = light(simd, (self.from, &p), (self.across, &line));
-        let mut shadows = [nothing; MOST_BLOCKERS];
-        for (shadow, screen) in shadows.iter_mut().zip(&self.screens) {
-            *shadow = shadow_of(simd, screen, (&p, number), light.bright);
+        // Of the longest line.
+        let length = coordinate(simd, k, 2, shifts);
+        let (mut all, mut visible) = (zero, zero);
+        for (number, fan) in self.across.fans.iter().enumerate() {
+            let light = light(simd, (self.from, &p), (self.across.normal, fan), length);
+            let mut shadows = [nothing; MOST_BLOCKERS];
+            for (shadow, screen) in shadows.iter_mut().zip(&self.screens) {
+                *shadow = shadow_of(simd, screen, &p, (number, length), light.bright);
+            }
+            let hidden = light_in_union(simd, &mut shadows[..self.screens.len()], &light);
+            let total = light.over(simd, light.bright);
+            all = all + total;
+            visible = visible + (total - hidden);
         }
-        let hidden = light_in_union(simd, &mut shadows[..self.screens.len()], &light);
-        let total = light.over(simd, light.bright);
-        [p.area * total, p.area * (total - hidden)]
+        [p.area * all, p.area * visible]
     }
 
     /// The shadow of a corner that no line has met is small among lines, and on each of them.
     fn unseen(&self, share: f64) -> f64 {
+        let share = share / self.across.fans.len() as f64;
         share * libm::cbrt(share)
     }
-}
-
-/// The line of number `u`, which is the first parameter on it; on triangles it is the shorter the
-/// larger `u`.
-#[inline(always)]
-fn line<S: Simd>(simd: S, target: &Target, u: S::F64) -> Line<S::F64> {
-    let one = simd.splat_f64(1.0);
-    let last = if target.is_triangle { one - u } else { one };
-    let mut line = Line {
-        start: at(simd, target, u, simd.splat_f64(0.0)),
-        end: at(simd, target, u, last),
-    };
-    // The area that stands for a piece of the line goes with its length.
-    line.start.area = line.start.area * last;
-    line.end.area = line.end.area * last;
-    line
 }
 
 /// Lines nearer to a point than this times their length are that near: the light stays finite.
 const NEAREST: f64 = 1e-10;
 
+/// The light from a point on the line of a fan that has this length, in units of the longest.
 #[inline(always)]
 fn light<S: Simd>(
     simd: S,
     (from, p): (&Target, &Points<S::F64>),
-    (across, line): (&Target, &Line<S::F64>),
+    (normal, fan): (DVec3, &Fan),
+    length: S::F64,
 ) -> Light<S::F64> {
     let zero = simd.splat_f64(0.0);
-    let Line { start, end } = line;
-    let to_start = [start.x - p.x, start.y - p.y, start.z - p.z];
-    let along = [end.x - start.x, end.y - start.y, end.z - start.z];
+    let [start, end] = [splat(simd, fan.sides[0]), splat(simd, fan.sides[1])];
+    let apex = splat(simd, fan.apex);
+    let to_start = [
+        apex[0] - p.x + length * start[0],
+        apex[1] - p.y + length * start[1],
+        apex[2] - p.z + length * start[2],
+    ];
+    let along = [
+        length * (end[0] - start[0]),
+        length * (end[1] - start[1]),
+        length * (end[2] - start[2]),
+    ];
     let [x, y, z] = to_start;
     let from_plane = dot(simd, from.normal, x, y, z);
-    let height_of_p = (-dot(simd, across.normal, x, y, z)).max(zero);
+    let height_of_p = (-dot(simd, normal, x, y, z)).max(zero);
     let [x, y, z] = along;
     let slope = dot(simd, from.normal, x, y, z);
-    let length = product(along, along);
-    let foot = -(product(to_start, along) / length);
-    let squared = product(to_start, to_start) / length - foot * foot;
+    let square = product(along, along);
+    let foot = -(product(to_start, along) / square);
+    let squared = product(to_start, to_start) / square - foot * foot;
     let mut bright = Interval {
         from: zero,
         to: simd.splat_f64(1.0),
     };
     clip(&mut bright, from_plane, from_plane + slope);
     bright.to = bright.to.max(bright.from);
-    // Both the height over the point's plane and the area grow linearly.
-    let (height, area) = (
-        from_plane + slope * foot,
-        start.area + (end.area - start.area) * foot,
-    );
-    let growth = end.area - start.area;
+    // The area that stands for a piece of the line goes with its length.
+    let area = simd.splat_f64(fan.area) * length;
     // A line without length has no light.
-    let scale = (height_of_p / (length * length)).select(zero.less(length), zero);
+    let scale = (height_of_p * area / (square * square)).select(zero.less(square), zero);
     Light {
         foot,
         squared: squared.max(simd.splat_f64(NEAREST * NEAREST)),
-        constant: scale * height * area,
-        linear: scale * (height * growth + slope * area),
-        square: scale * slope * growth,
+        constant: scale * (from_plane + slope * foot),
+        linear: scale * slope,
         bright,
     }
 }
 
 #[inline(always)]
+fn splat<S: Simd>(simd: S, v: DVec3) -> [S::F64; 3] {
+    [
+        simd.splat_f64(v.x),
+        simd.splat_f64(v.y),
+        simd.splat_f64(v.z),
+    ]
+}
+
+#[inline(always)]
 fn product<F: Float<f64>>(a: [F; 3], b: [F; 3]) -> F {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+impl Heights {
+    /// Of the start and the end of a line of this length.
+    #[inline(always)]
+    fn of_line<S: Simd>(&self, simd: S, length: S::F64) -> [S::F64; 2] {
+        let apex = simd.splat_f64(self.apex);
+        let [start, end] = self.sides;
+        [
+            apex + length * simd.splat_f64(start),
+            apex + length * simd.splat_f64(end),
+        ]
+    }
 }
 
 impl<F: Float<f64>> Light<F> {
@@ -193,36 +209,32 @@ impl<F: Float<f64>> Light<F> {
         let angle = angle(simd, distance * (to - from), self.squared + from * to);
         let arc = angle / distance;
         let rational = to * at_to - from * at_from;
-        half * (self.constant * (arc + rational) / self.squared
-            + self.linear * (at_from - at_to)
-            + self.square * (arc - rational))
+        half * (self.constant * (arc + rational) / self.squared + self.linear * (at_from - at_to))
     }
 }
 
-/// The part of a line, named by its number, that a screen hides from a point: where a few functions
-/// that are linear along the line are all positive.
+/// The part of a line, of a fan and of this length, that a screen hides from a point: where a few
+/// functions that are linear along the line are all positive.
 #[inline(always)]
 fn shadow_of<S: Simd>(
     simd: S,
     Screen([front, edges @ ..]): &Screen,
-    (p, line): (&Points<S::F64>, S::F64),
+    p: &Points<S::F64>,
+    (fan, length): (usize, S::F64),
     bright: Interval<S::F64>,
 ) -> Interval<S::F64> {
-    let height_of =
-        |[first, growth]: [f64; 2]| simd.splat_f64(first) + line * simd.splat_f64(growth);
     let at_p = height(simd, &front.plane, p);
-    let across_start = -(at_p * height_of(front.starts));
-    let across_end = -(at_p * height_of(front.ends));
+    let [at_start, at_end] = front.fans[fan].of_line(simd, length);
+    let across_start = -(at_p * at_start);
+    let across_end = -(at_p * at_end);
     let mut shadow = bright;
     clip(&mut shadow, across_start, across_end);
     let squared = at_p * at_p;
     for edge in edges {
-        if shadow.from.less(shadow.to) == 0 {
-            break;
-        }
         let edge_at_p = height(simd, &edge.plane, p);
-        let start = edge_at_p * across_start + height_of(edge.starts) * squared;
-        let end = edge_at_p * across_end + height_of(edge.ends) * squared;
+        let [at_start, at_end] = edge.fans[fan].of_line(simd, length);
+        let start = edge_at_p * across_start + at_start * squared;
+        let end = edge_at_p * across_end + at_end * squared;
         clip(&mut shadow, start, end);
     }
     // An interval that ends before it begins is none.

@@ -1,11 +1,12 @@
 //! Points on patches, eight at a time.
 
 use crate::blocker::Plane;
+use arrayvec::ArrayVec;
 use radiosity_geometry::{DVec3, Patch, Polygon};
 use radiosity_simd::{Float, LANES, Simd};
 
 /// A patch as points are drawn from it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Target {
     corner: DVec3,
     edges: [DVec3; 2],
@@ -13,8 +14,21 @@ pub(crate) struct Target {
     twist: DVec3,
     /// The Jacobian: at the corner, and what it grows along either edge.
     jacobian: [f64; 3],
-    pub(crate) is_triangle: bool,
+    is_triangle: bool,
     pub(crate) normal: DVec3,
+    /// The patch in one or two triangles.
+    pub(crate) fans: ArrayVec<Fan, 2>,
+}
+
+/// A triangle as the lines across it that are parallel to one of its edges: from that they shrink to
+/// a point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fan {
+    pub(crate) apex: DVec3,
+    /// From the apex to where the longest line starts, and to where it ends.
+    pub(crate) sides: [DVec3; 2],
+    /// Twice that of the triangle.
+    pub(crate) area: f64,
 }
 
 /// Points, one per lane, and the area that each stands for.
@@ -54,21 +68,43 @@ impl Target {
             ],
             is_triangle,
             normal: patch.normal,
+            fans: fans(patch.polygon.corners()),
         }
     }
 }
 
-impl Target {
-    /// Of the lines on which the first parameter is 0 and 1, the starts, and the ends: what is between
-    /// them is linear. On triangles lines get shorter up to a point.
-    pub(crate) fn line_ends(&self) -> [[DVec3; 2]; 2] {
-        let [a, b] = self.edges;
-        let last = if self.is_triangle {
-            self.corner + a
-        } else {
-            self.corner + a + b + self.twist
-        };
-        [[self.corner, self.corner + a], [self.corner + b, last]]
+impl Fan {
+    /// Of the triangle of these corners, with lines parallel to its second edge.
+    pub(crate) fn new([apex, start, end]: [DVec3; 3]) -> Fan {
+        let sides = [start - apex, end - apex];
+        Fan {
+            apex,
+            sides,
+            area: sides[0].cross(sides[1]).length(),
+        }
+    }
+}
+
+/// The lines of a triangle are parallel to its longest edge, those of a quad to its longer diagonal:
+/// to neither edge of a rectangle, since shadows of other rectangles often are, and a line that runs
+/// along the edge of a shadow is all light or all dark.
+fn fans(corners: &[DVec3]) -> ArrayVec<Fan, 2> {
+    match *corners {
+        [a, b, c] => {
+            let ways = [[a, b, c], [b, c, a], [c, a, b]];
+            let longest = |way: &[DVec3; 3]| way[1].distance(way[2]);
+            let by_length = |x: &[DVec3; 3], y: &[DVec3; 3]| longest(x).total_cmp(&longest(y));
+            ways.into_iter()
+                .max_by(by_length)
+                .map(Fan::new)
+                .into_iter()
+                .collect()
+        }
+        [a, b, c, d] if a.distance(c) >= b.distance(d) => {
+            [[b, a, c], [d, a, c]].map(Fan::new).into()
+        }
+        [a, b, c, d] => [[a, b, d], [c, b, d]].map(Fan::new).into(),
+        _ => unreachable!("polygons have three or four corners"),
     }
 }
 
@@ -139,4 +175,41 @@ pub(crate) fn dot<S: Simd>(simd: S, n: DVec3, x: S::F64, y: S::F64, z: S::F64) -
 #[inline(always)]
 pub(crate) fn height<S: Simd>(simd: S, plane: &Plane, p: &Points<S::F64>) -> S::F64 {
     dot(simd, plane.normal, p.x, p.y, p.z) - simd.splat_f64(plane.offset)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fans_are_the_polygon_and_run_along_no_edge_of_a_rectangle() {
+        let p = DVec3::new;
+        let quad = [
+            p(0.0, 0.0, 0.0),
+            p(3.0, 0.0, 0.0),
+            p(2.0, 2.0, 0.0),
+            p(0.5, 2.0, 0.0),
+        ];
+        let rectangle = [
+            p(0.0, 0.0, 0.0),
+            p(0.0, 3.0, 0.0),
+            p(0.0, 3.0, 1.0),
+            p(0.0, 0.0, 1.0),
+        ];
+        for corners in [&quad[..], &quad[1..], &quad[..3], &rectangle] {
+            let polygon = match *corners {
+                [a, b, c] => Polygon::triangle([a, b, c]),
+                [a, b, c, d] => Polygon::quad([a, b, c, d]),
+                _ => unreachable!(),
+            };
+            let fans = fans(corners);
+            assert_eq!(fans.len(), corners.len() - 2);
+            let area: f64 = fans.iter().map(|fan| 0.5 * fan.area).sum();
+            assert!((area / polygon.area() - 1.0).abs() < 1e-15);
+        }
+        for fan in fans(&rectangle) {
+            let along = fan.sides[1] - fan.sides[0];
+            assert!(along.y.abs() > 0.5 && along.z.abs() > 0.5);
+        }
+    }
 }

@@ -12,19 +12,19 @@ use std::f64::consts::PI;
 /// Pieces into which a line is cut.
 const PIECES: usize = 16;
 
-/// The light on each piece of a line; the line is the middle one, seen from the middle.
-struct Pieces<'a>([&'a Target; 2]);
+/// The light on each piece of a line, which is half as long as the longest of a fan, from the middle of
+/// a patch.
+struct Pieces<'a>([&'a Target; 2], &'a Fan);
 
 impl Kernel for Pieces<'_> {
     type Output = [f64; PIECES];
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> [f64; PIECES] {
-        let [from, across] = self.0;
+        let Pieces([from, across], fan) = self;
         let half = simd.splat_f64(0.5);
         let p = points(simd, from, half, half);
-        let line = line(simd, across, half);
-        let light = light(simd, (from, &p), (across, &line));
+        let light = light(simd, (from, &p), (across.normal, fan), half);
         let mut pieces = [0.0; PIECES];
         for (k, piece) in pieces.iter_mut().enumerate() {
             let bound = |k: usize| simd.splat_f64(k as f64 / PIECES as f64);
@@ -37,15 +37,14 @@ impl Kernel for Pieces<'_> {
 }
 
 /// The same by Gauss's rule on the kernel.
-fn expected(mesh: &Mesh) -> [f64; PIECES] {
+fn expected(mesh: &Mesh, fan: &Fan) -> [f64; PIECES] {
     /// Parts of a piece, since the kernel has a kink where it becomes zero.
     const PARTS: usize = 32;
     let [i, j] = [0, 1].map(|k: usize| &mesh.patches[k]);
     let p = i.polygon.bilinear(0.5, 0.5);
-    let at = |v: f64| {
-        let q = j.polygon.bilinear(0.5, v);
-        PI * exchange::kernel(p, i.normal, q, j.normal) * j.polygon.bilinear_jacobian(0.5, v)
-    };
+    let [start, end] = fan.sides.map(|side| fan.apex + 0.5 * side);
+    let area = 0.5 * fan.sides[0].cross(fan.sides[1]).length();
+    let at = |s: f64| PI * area * exchange::kernel(p, i.normal, start.lerp(end, s), j.normal);
     let width = 1.0 / (PIECES * PARTS) as f64;
     let part = |part: usize| {
         let points = gauss::rule(8).iter();
@@ -79,17 +78,21 @@ fn light_is_the_integral_of_the_kernel() {
         let Ok(mesh) = subdivide(&surfaces, Divisions::uniform(1)) else {
             continue;
         };
-        let expected = expected(&mesh);
-        let total: f64 = expected.iter().sum();
         let [i, j] = [0, 1].map(|k: usize| &mesh.patches[k]);
-        let (p, q) = (i.polygon.bilinear(0.5, 0.5), j.polygon.bilinear(0.5, 0.5));
+        let targets = [i, j].map(Target::new);
+        let fan = &targets[1].fans[count % 2];
+        let expected = expected(&mesh, fan);
+        let total: f64 = expected.iter().sum();
+        let (p, q) = (
+            i.polygon.bilinear(0.5, 0.5),
+            fan.apex + 0.25 * (fan.sides[0] + fan.sides[1]),
+        );
         let squarely = j.area / p.distance_squared(q);
         if total < 1e-3 * squarely || p.distance(q) < 0.3 * j.polygon.longest_edge() {
             continue;
         }
-        let [i, j] = [i, j].map(Target::new);
         for set in InstructionSet::available() {
-            let found = set.run(Pieces([&i, &j]));
+            let found = set.run(Pieces([&targets[0], &targets[1]], fan));
             for (found, expected) in std::iter::zip(found, expected) {
                 assert!(
                     (found - expected).abs() < 1e-4 * total,

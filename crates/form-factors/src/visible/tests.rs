@@ -5,7 +5,7 @@ use crate::blocker::Blocker;
 use crate::exchange;
 use crate::lines::Lines;
 use crate::segments::{Blocked, Segments};
-use crate::target::Target;
+use crate::target::{Fan, Target};
 use radiosity_geometry::{DVec3, Divisions, Mesh, Occluders, Shape, Surface, subdivide};
 use radiosity_simd::InstructionSet;
 
@@ -195,4 +195,43 @@ fn lattices_of_all_sizes_are_good() {
             samples *= 2;
         }
     }
+}
+
+/// The shadow of a square on one parallel to it has edges along those of the square. Lines along its
+/// diagonal know more of it than lines along its edges, of which some run along the shadow's.
+#[test]
+fn lines_that_cross_shadows_know_more() {
+    let p = DVec3::new;
+    let corners = [0.0, 2.0].map(|z| {
+        [
+            p(0.0, 0.0, z),
+            p(2.0, 0.0, z),
+            p(2.0, 2.0, z),
+            p(0.0, 2.0, z),
+        ]
+    });
+    let [below, [a, b, c, d]] = corners;
+    let between = below.map(|corner| 0.65 * corner + p(-0.4, -0.4, 1.0));
+    let surfaces = [below, [a, d, c, b], between].map(|corners| Surface {
+        shape: Shape::Quad(corners),
+        divisions: None,
+    });
+    let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
+    let ([i, j], blockers) = (targets(&mesh), blockers(&mesh));
+    let mut along_edges = j.clone();
+    along_edges.fans = [[c, a, b], [a, c, d]].map(Fan::new).into();
+    let share = |across: &Target, samples: usize| {
+        let lines = Lines::new(&i, across, &blockers);
+        let sums = sums(InstructionSet::current(), &lines, samples);
+        ratio(&sums.visible, &sums.all)
+    };
+    let (expected, _) = share(&j, MOST);
+    let (value, error) = share(&j, 64);
+    assert!((value - expected).abs() < 4.0 * error);
+    let (value, error_along_edges) = share(&along_edges, 64);
+    assert!((value - expected).abs() < 4.0 * error_along_edges);
+    assert!(
+        2.0 * error < error_along_edges,
+        "{error} {error_along_edges}"
+    );
 }
