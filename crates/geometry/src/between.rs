@@ -34,8 +34,7 @@ struct Collect<'a> {
 }
 
 /// The faces found so far; one more than `most` if they are too many.
-struct Collection<'a> {
-    occluders: &'a Occluders,
+struct Collection {
     most: usize,
     faces: Vec<FaceId>,
 }
@@ -52,7 +51,6 @@ impl Kernel for Collect<'_> {
         } = self;
         let shaft = Shaft::new(from, to, &occluders.tree.frame);
         let mut collection = Collection {
-            occluders,
             most,
             faces: Vec::new(),
         };
@@ -61,11 +59,10 @@ impl Kernel for Collect<'_> {
     }
 }
 
-impl ShaftVisitor for Collection<'_> {
+impl ShaftVisitor for Collection {
     #[inline(always)]
-    fn visit<S: Simd>(&mut self, _: S, leaf: usize, lane: usize) -> ControlFlow<()> {
-        let face = self.occluders.blocks[leaf].face(lane);
-        self.faces.push(FaceId(face));
+    fn visit<S: Simd>(&mut self, _: S, item: u32) -> ControlFlow<()> {
+        self.faces.push(FaceId(item));
         if self.faces.len() > self.most {
             ControlFlow::Break(())
         } else {

@@ -2,7 +2,7 @@
 //! Bounding Volume Hierarchies", 2007), the largest parts split until a node has eight children.
 
 use crate::bounds::Aabb;
-use crate::bvh::{Bvh, Child, FEW_LEAVES, Node};
+use crate::bvh::{Bvh, Child, FEW_LEAVES, Leaf, Node};
 use crate::slabs::{Boxes, Frame};
 use arrayvec::ArrayVec;
 use glam::DVec3;
@@ -20,7 +20,6 @@ struct Builder<'a> {
     /// The items, of which every part is a range.
     items: Vec<u32>,
     tree: Bvh,
-    leaves: Vec<Vec<u32>>,
 }
 
 /// Items that will share a node or a leaf.
@@ -31,8 +30,8 @@ struct Part {
     depth: usize,
 }
 
-/// The tree over some boxes, and the items of each leaf.
-pub(crate) fn build(boxes: &[Aabb]) -> (Bvh, Vec<Vec<u32>>) {
+/// The tree over some boxes.
+pub(crate) fn build(boxes: &[Aabb]) -> Bvh {
     let whole = boxes.iter().fold(Aabb::EMPTY, |sum, &b| sum.union(b));
     let nowhere = Aabb::around([DVec3::ZERO]);
     let mut builder = Builder {
@@ -43,14 +42,13 @@ pub(crate) fn build(boxes: &[Aabb]) -> (Bvh, Vec<Vec<u32>>) {
             leaves: Vec::new(),
             frame: Frame::new(if boxes.is_empty() { nowhere } else { whole }),
         },
-        leaves: Vec::new(),
     };
     if boxes.is_empty() {
         builder.tree.nodes.push(Node::EMPTY);
     } else {
         builder.add_node(builder.part(0..boxes.len(), 0));
     }
-    (builder.tree, builder.leaves)
+    builder.tree
 }
 
 impl Builder<'_> {
@@ -89,14 +87,17 @@ impl Builder<'_> {
     }
 
     fn add_leaf(&mut self, range: Range<usize>) -> Child {
-        let items = self.items[range].to_vec();
-        let mut boxes = Boxes::EMPTY;
-        for (lane, &item) in items.iter().enumerate() {
-            boxes.set(lane, self.boxes[item as usize], &self.tree.frame);
+        let mut leaf = Leaf {
+            boxes: Boxes::EMPTY,
+            items: [u32::MAX; LANES],
+        };
+        for (lane, &item) in self.items[range].iter().enumerate() {
+            let bounds = self.boxes[item as usize];
+            leaf.boxes.set(lane, bounds, &self.tree.frame);
+            leaf.items[lane] = item;
         }
-        self.tree.leaves.push(boxes);
-        self.leaves.push(items);
-        Child::to_leaf(self.leaves.len() - 1)
+        self.tree.leaves.push(leaf);
+        Child::to_leaf(self.tree.leaves.len() - 1)
     }
 
     /// All items, eight to a part.

@@ -1,19 +1,13 @@
-//! Eight segments at a time: what blocks any of them lies in the shaft around all.
-//!
-//! One shaft is tested against eight boxes at once, and one face against eight segments, so a
-//! bundle of neighbours costs little more than a single segment, unless faces are small beside the
-//! shaft: then segments go their own ways.
+//! Eight segments at a time: what blocks each of them.
 
-use crate::bounds::Aabb;
-use crate::bvh::{ShaftVisitor, bits};
+use crate::bvh::bits;
 use crate::face_block::around_origin;
 use crate::mesh::FaceId;
 use crate::occluders::{Occluder, Occluders, ordered};
 use crate::queries::Blocked;
-use crate::shaft::Shaft;
+use crate::together::SegmentsVisitor;
 use glam::DVec3;
 use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
-use std::ops::ControlFlow;
 
 /// Points of eight segments, by axis.
 pub type Points = [[f64; LANES]; 3];
@@ -55,20 +49,17 @@ impl Kernel for BlockedOf<'_> {
         }
         let [from, to] = self.bundle.points;
         let tree = &self.occluders.tree;
-        let [a, b] = [from, to].map(|points| bounds(&points, self.wanted));
-        let shaft = Shaft::new(a, b, &tree.frame);
+        let segments = Segments::new(simd, &from, &to);
+        let inside = tree.frame.holds(simd, &segments.first) & self.wanted;
+        let slabs = tree.frame.segments(simd, &segments.first, &segments.last);
         let mut search = Search {
             occluders: self.occluders,
             bundle: self.bundle,
-            segments: Segments::new(simd, &from, &to),
-            open: self.wanted,
-            tried: 0,
+            segments,
         };
-        tree.within(simd, &shaft, &mut search);
-        if search.tried > MOST_TRIED {
-            search.open = self.alone(simd, search.open);
-        }
-        self.wanted & !search.open
+        let open = tree.together(simd, &slabs, inside, &mut search);
+        let open = open | self.alone(simd, self.wanted & !inside);
+        self.wanted & !open
     }
 }
 
@@ -87,10 +78,6 @@ impl BlockedOf<'_> {
         }
         open
     }
-}
-
-fn bounds(points: &Points, lanes: u8) -> Aabb {
-    Aabb::around(bits(lanes).map(|lane| DVec3::from_array(points.map(|axis| axis[lane]))))
 }
 
 /// [`Ray`](crate::ray::Ray)s from one end to the other, each from its first end in order.
@@ -148,46 +135,39 @@ struct Search<'a> {
     occluders: &'a Occluders,
     bundle: &'a Bundle,
     segments: Segments,
-    /// The segments that nothing is known to block.
-    open: u8,
-    /// How many faces they were tried against.
-    tried: u32,
 }
 
-/// Where more faces reach into a shaft, it is wide for them, and each segment meets but a few.
-const MOST_TRIED: u32 = 8;
-
-impl ShaftVisitor for Search<'_> {
+impl SegmentsVisitor for Search<'_> {
     #[inline(always)]
-    fn visit<S: Simd>(&mut self, simd: S, leaf: usize, lane: usize) -> ControlFlow<()> {
-        let id = FaceId(self.occluders.blocks[leaf].face(lane));
-        let face = &self.occluders.faces[id.index()];
-        let mut cut = self.cut(simd, face);
-        for lane in bits(cut) {
-            if self.bundle.faces.iter().any(|faces| faces[lane] == id) {
-                cut &= !(1 << lane);
-            }
-        }
-        self.open &= !cut;
-        self.tried += 1;
-        if self.open == 0 || self.tried > MOST_TRIED {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
+    fn expect<S: Simd>(&self, simd: S, item: u32) {
+        let face = &self.occluders.faces[item as usize];
+        simd.prefetch(&face.corners);
+        simd.prefetch(std::slice::from_ref(&face.normal));
+    }
+
+    #[inline(always)]
+    fn visit<S: Simd>(&mut self, simd: S, item: u32, segments: u8) -> u8 {
+        let id = FaceId(item);
+        let [from, to] = &self.bundle.faces;
+        let ends_on = |lane: usize| u8::from(from[lane] == id || to[lane] == id) << lane;
+        let own: u8 = (0..LANES).map(ends_on).sum();
+        match segments & !own {
+            0 => 0,
+            some => self.cut(simd, &self.occluders.faces[id.index()], some),
         }
     }
 }
 
 impl Search<'_> {
-    /// [`Occluder::cuts`] for all open segments, with the same operations in the same order.
+    /// [`Occluder::cuts`] for some segments, with the same operations in the same order.
     #[inline(always)]
-    fn cut<S: Simd>(&self, simd: S, face: &Occluder) -> u8 {
+    fn cut<S: Simd>(&self, simd: S, face: &Occluder, some: u8) -> u8 {
         let tolerance = self.occluders.plane_tolerance;
         let at_first = heights(simd, face, &self.segments.first);
         let at_last = heights(simd, face, &self.segments.last);
         let above = simd.splat_f64(tolerance).less(at_first.max(at_last));
         let below = at_first.min(at_last).less(simd.splat_f64(-tolerance));
-        let candidates = self.open & above & below;
+        let candidates = some & above & below;
         let mut cut = 0;
         for (axis, along) in self.segments.along.into_iter().enumerate() {
             if along & candidates != 0 {

@@ -17,8 +17,7 @@ use std::ops::ControlFlow;
 pub(crate) struct Bvh {
     /// The root first.
     pub(crate) nodes: Vec<Node>,
-    /// The boxes of the items of each leaf.
-    pub(crate) leaves: Vec<Boxes>,
+    pub(crate) leaves: Vec<Leaf>,
     pub(crate) frame: Frame,
 }
 
@@ -26,6 +25,14 @@ pub(crate) struct Bvh {
 pub(crate) struct Node {
     pub(crate) boxes: Boxes,
     pub(crate) children: [Child; LANES],
+}
+
+/// Up to eight items with their boxes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Leaf {
+    pub(crate) boxes: Boxes,
+    /// Their indices; those of unused lanes mean nothing.
+    pub(crate) items: [u32; LANES],
 }
 
 /// The index of a node or of a leaf.
@@ -41,14 +48,14 @@ pub(crate) trait Visitor {
 
 /// What looks at the items within a shaft.
 pub(crate) trait ShaftVisitor {
-    /// Looks at an item of a leaf. `Break` ends the search.
-    fn visit<S: Simd>(&mut self, simd: S, leaf: usize, lane: usize) -> ControlFlow<()>;
+    /// Looks at an item. `Break` ends the search.
+    fn visit<S: Simd>(&mut self, simd: S, item: u32) -> ControlFlow<()>;
 }
 
 /// So few leaves are looked at faster than the boxes around them.
 pub(crate) const FEW_LEAVES: usize = 3;
 /// Each level leaves up to seven of its eight children waiting.
-const STACK: usize = (LANES - 1) * MAX_DEPTH + LANES;
+pub(crate) const STACK: usize = (LANES - 1) * MAX_DEPTH + LANES;
 
 impl Bvh {
     /// Shows a visitor all leaves that the ray may touch at parameters in `from..=limit`, near
@@ -105,8 +112,9 @@ impl Bvh {
         stack.push(Child::ROOT);
         while let Some(child) = stack.pop() {
             if let Some(leaf) = child.leaf() {
-                for lane in bits(shaft.meets(simd, &self.leaves[leaf])) {
-                    if visitor.visit(simd, leaf, lane).is_break() {
+                let Leaf { boxes, items } = &self.leaves[leaf];
+                for lane in bits(shaft.meets(simd, boxes)) {
+                    if visitor.visit(simd, items[lane]).is_break() {
                         return;
                     }
                 }
@@ -120,6 +128,13 @@ impl Bvh {
     }
 }
 
+impl Leaf {
+    /// The indices of its items.
+    pub(crate) fn items(&self) -> impl Iterator<Item = usize> {
+        bits(self.boxes.used()).map(|lane| self.items[lane] as usize)
+    }
+}
+
 impl Node {
     pub(crate) const EMPTY: Node = Node {
         boxes: Boxes::EMPTY,
@@ -128,7 +143,7 @@ impl Node {
 }
 
 impl Child {
-    const ROOT: Child = Child(0);
+    pub(crate) const ROOT: Child = Child(0);
     const LEAF: u32 = 1 << 31;
 
     pub(crate) fn to_node(index: usize) -> Child {
@@ -139,11 +154,11 @@ impl Child {
         Child(index as u32 | Child::LEAF)
     }
 
-    fn leaf(self) -> Option<usize> {
+    pub(crate) fn leaf(self) -> Option<usize> {
         (self.0 & Child::LEAF != 0).then_some((self.0 & !Child::LEAF) as usize)
     }
 
-    fn index(self) -> usize {
+    pub(crate) fn index(self) -> usize {
         self.0 as usize
     }
 }

@@ -13,7 +13,6 @@ pub(crate) struct FaceBlock {
     corners: [[[f64; LANES]; 3]; 4],
     normal: [[f64; LANES]; 3],
     offset: [f64; LANES],
-    faces: [u32; LANES],
     /// Whether all fourth corners repeat the third.
     triangles: bool,
 }
@@ -29,17 +28,15 @@ pub(crate) struct BlockHits {
 }
 
 impl FaceBlock {
-    /// The faces of the given indices, at most eight.
-    pub(crate) fn new(all: &[Occluder], faces: &[u32]) -> FaceBlock {
+    /// At most eight faces.
+    pub(crate) fn new<'a>(faces: impl IntoIterator<Item = &'a Occluder>) -> FaceBlock {
         let mut block = FaceBlock {
             corners: [[[0.0; LANES]; 3]; 4],
             normal: [[0.0; LANES]; 3],
             offset: [0.0; LANES],
-            faces: [u32::MAX; LANES],
             triangles: true,
         };
-        for (lane, &index) in faces.iter().enumerate() {
-            let face = &all[index as usize];
+        for (lane, face) in faces.into_iter().enumerate() {
             for axis in 0..3 {
                 for (corner, position) in face.corners.iter().enumerate() {
                     block.corners[corner][axis][lane] = position[axis];
@@ -47,15 +44,9 @@ impl FaceBlock {
                 block.normal[axis][lane] = face.normal[axis];
             }
             block.offset[lane] = face.offset;
-            block.faces[lane] = index;
             block.triangles &= face.corners[2] == face.corners[3];
         }
         block
-    }
-
-    /// The index of the face in a lane.
-    pub(crate) fn face(&self, lane: usize) -> u32 {
-        self.faces[lane]
     }
 
     /// Where the ray meets the faces at parameters in `from..=to`.

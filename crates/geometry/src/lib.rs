@@ -35,6 +35,7 @@ mod shaft;
 mod shape;
 mod slabs;
 mod subdivide;
+mod together;
 mod walls;
 
 pub use bounds::Aabb;

@@ -22,7 +22,9 @@ pub struct Occluders {
     pub(crate) plane_tolerance: f64,
 }
 
+/// Two lines of memory.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
 pub(crate) struct Occluder {
     pub(crate) corners: [DVec3; 4],
     pub(crate) normal: DVec3,
@@ -81,16 +83,22 @@ impl Occluders {
         // A ray within the side of a flat box must find it.
         let boxes: Vec<Aabb> = boxes.map(|b| b.grown(plane_tolerance)).collect();
         let faces: Vec<Occluder> = polygons.iter().map(Occluder::new).collect();
-        let (tree, leaves) = build(&boxes);
+        let tree = build(&boxes);
         Occluders {
-            blocks: leaves
+            blocks: tree
+                .leaves
                 .iter()
-                .map(|leaf| FaceBlock::new(&faces, leaf))
+                .map(|leaf| FaceBlock::new(leaf.items().map(|item| &faces[item])))
                 .collect(),
             faces,
             tree,
             plane_tolerance,
         }
+    }
+
+    /// The face in a lane of a block.
+    pub(crate) fn face(&self, block: usize, lane: usize) -> FaceId {
+        FaceId(self.tree.leaves[block].items[lane])
     }
 
     /// Heights over a plane up to this count as in it: the rounding of coordinates of this scene.

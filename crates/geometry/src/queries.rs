@@ -35,7 +35,7 @@ pub(crate) struct Blocked<'a> {
     occluders: &'a Occluders,
     ray: Ray,
     ends: [DVec3; 2],
-    except: [u32; 2],
+    except: [FaceId; 2],
     found: bool,
 }
 
@@ -88,7 +88,7 @@ impl Visitor for ClosestHit<'_> {
         let block = &occluders.blocks[leaf];
         let hits = block.hits(simd, ray, from, *limit);
         for lane in bits(hits.mask) {
-            let (t, face) = (hits.t[lane], FaceId(block.face(lane)));
+            let (t, face) = (hits.t[lane], occluders.face(leaf, lane));
             let first = |best: Hit| t < best.t || t == best.t && face < best.face;
             if Some(face) != except && self.closest.is_none_or(first) {
                 *limit = t;
@@ -126,7 +126,7 @@ impl Visitor for AnyHit<'_> {
         } = self.reach;
         let block = &occluders.blocks[leaf];
         let hits = block.hits(simd, ray, from, *limit);
-        self.found = bits(hits.mask).any(|lane| Some(FaceId(block.face(lane))) != except);
+        self.found = bits(hits.mask).any(|lane| Some(occluders.face(leaf, lane)) != except);
         stop_if(self.found)
     }
 }
@@ -142,7 +142,7 @@ impl<'a> Blocked<'a> {
             occluders,
             ray: Ray::new(ends[0], ends[1] - ends[0]),
             ends,
-            except: except.map(|face| face.0),
+            except,
             found: false,
         }
     }
@@ -162,10 +162,10 @@ impl Kernel for Blocked<'_> {
 impl Visitor for Blocked<'_> {
     #[inline(always)]
     fn visit<S: Simd>(&mut self, simd: S, leaf: usize, _: &mut f64) -> ControlFlow<()> {
-        let block = &self.occluders.blocks[leaf];
-        let tolerance = self.occluders.plane_tolerance;
+        let occluders = self.occluders;
+        let (block, tolerance) = (&occluders.blocks[leaf], occluders.plane_tolerance);
         let mask = block.cut(simd, &self.ray, self.ends, tolerance);
-        self.found = bits(mask).any(|lane| !self.except.contains(&block.face(lane)));
+        self.found = bits(mask).any(|lane| !self.except.contains(&occluders.face(leaf, lane)));
         stop_if(self.found)
     }
 }

@@ -16,12 +16,12 @@ use radiosity_simd::{Float, LANES, Simd};
 const PADDING: f64 = 1.0 / (1 << 22) as f64;
 /// Direction, its inverse, the difference and the product round by 2^-24 each, on entry and on
 /// exit: 5e-7; doubled, to be safe.
-const RELATIVE_ERROR: f32 = 1e-6;
+pub(crate) const RELATIVE_ERROR: f32 = 1e-6;
 
 /// Where a tree's boxes are in single precision.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
-    scene: Aabb,
+    pub(crate) scene: Aabb,
     pub(crate) center: DVec3,
     /// The longest edge of the scene.
     pub(crate) extent: f64,
@@ -94,6 +94,16 @@ impl Boxes {
         }
     }
 
+    /// The lanes that hold a box.
+    pub(crate) fn used(&self) -> u8 {
+        self.used
+    }
+
+    /// All sides.
+    pub(crate) fn sides(&self) -> &[[f32; LANES]; 6] {
+        &self.sides
+    }
+
     /// One side of all boxes: minima by axis, then maxima.
     #[inline(always)]
     pub(crate) fn side(&self, side: usize) -> &[f32; LANES] {
@@ -139,10 +149,12 @@ impl SlabRay {
     }
 }
 
+/// The largest inverse of a direction.
+pub(crate) const LARGEST: f32 = 1e30;
+
 /// `1 / d`, kept finite so that a slab test never multiplies zero by infinity.
 #[inline(always)]
 fn inverse(d: Vec3) -> Vec3 {
-    const LARGEST: f32 = 1e30;
     // Four lanes divide at once.
     let inverse = d.extend(1.0).recip().truncate();
     inverse.clamp(Vec3::splat(-LARGEST), Vec3::splat(LARGEST))

@@ -71,9 +71,9 @@ pub trait Simd: Copy {
     fn narrow(self, numbers: Self::F64) -> Self::F32;
     /// The same numbers in double precision.
     fn widen(self, numbers: Self::F32) -> Self::F64;
-    /// Has the processor fetch the line of memory of the first number: a hint, without any effect
-    /// but on time.
-    fn prefetch(self, numbers: &[f32]);
+    /// Has the processor fetch the first line of memory of these: a hint, without any effect but on
+    /// time.
+    fn prefetch<T>(self, items: &[T]);
 }
 
 /// Eight numbers. Comparisons answer with one bit per lane, the first lane lowest; nothing

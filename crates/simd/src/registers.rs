@@ -248,9 +248,9 @@ macro_rules! entrance {
             }
 
             #[inline(always)]
-            fn prefetch(self, numbers: &[f32]) {
+            fn prefetch<T>(self, items: &[T]) {
                 // SAFETY: see `run`. No address is wrong for a hint.
-                unsafe { _mm_prefetch::<_MM_HINT_T1>(numbers.as_ptr().cast()) }
+                unsafe { _mm_prefetch::<_MM_HINT_T1>(items.as_ptr().cast()) }
             }
         }
     };

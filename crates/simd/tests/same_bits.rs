@@ -96,7 +96,7 @@ impl Kernel for Widen {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> [u64; LANES] {
         simd.prefetch(&self.0);
-        simd.prefetch(&[]);
+        simd.prefetch::<f32>(&[]);
         let lanes = simd.widen(simd.f32(&self.0)).lanes();
         lanes.map(f64::to_bits)
     }

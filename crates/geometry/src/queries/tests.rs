@@ -123,6 +123,40 @@ fn check_bundle(occluders: &Occluders, segments: &[(DVec3, DVec3)], except: [Fac
     }
 }
 
+/// Enough small triangles for a tree of several levels, and more leaves along segments than are met at
+/// a time.
+#[test]
+fn bundles_find_their_way_among_many_faces() {
+    let turn = |k: u32, by: f64| 5.0 * (f64::from(k) * by).fract();
+    let point = |k: u32| DVec3::new(turn(k, 0.754_877), turn(k, 0.569_840), turn(k, 0.430_159));
+    let mut mesh = PolygonMesh {
+        positions: Vec::new(),
+        faces: Vec::new(),
+    };
+    for k in 0..3000 {
+        let first = mesh.positions.len() as u32;
+        let corner = point(k);
+        let edge = |seed: u32| 0.04 * (point(7 * k + seed) - DVec3::splat(2.5));
+        mesh.positions
+            .extend([corner, corner + edge(1), corner + edge(5)]);
+        mesh.faces.push(vec![first, first + 1, first + 2]);
+    }
+    let surface = Surface {
+        shape: Shape::Mesh(mesh),
+        divisions: None,
+    };
+    let mesh = subdivide(&[surface], Divisions::uniform(1)).unwrap();
+    let occluders = Occluders::new(&mesh);
+    for bundle in 0..200 {
+        // Wide ones and narrow ones.
+        let width = if bundle % 2 == 0 { 1.0 } else { 0.02 };
+        let [from, to] = [point(bundle + 10_000), point(bundle + 20_000)];
+        let near = |center: DVec3, k: u32| center.lerp(point(8 * bundle + k), width);
+        let segments: Vec<_> = (0..8).map(|k| (near(from, k), near(to, k + 31))).collect();
+        check_bundle(&occluders, &segments, [FaceId(bundle), FaceId(0)]);
+    }
+}
+
 proptest! {
     #[test]
     fn all_instruction_sets_agree_with_the_scalar_test(
