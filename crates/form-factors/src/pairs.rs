@@ -9,9 +9,10 @@ use crate::tally::Sight;
 use crate::tiles::Group;
 use std::ops::Range;
 
-/// So many faces are listed between parts that will be looked at more closely, and at last.
+/// So many faces are listed between two parts; among more, segments find their way by the tree.
 const FEW: usize = 64;
-const MANY: usize = 1024;
+/// Between parts that all segments of the regular rule, 81 of them, are tried at once.
+const MANY: usize = 256;
 
 /// What is found out about a pair.
 pub(crate) struct Told {
@@ -40,7 +41,6 @@ impl Estimation<'_> {
     ) {
         let tiles = &self.tiling.tiles;
         let part = &tiles[tile].part;
-        // Accurate pairs have a list of their own.
         let most = match self.method {
             Method::Regular(_) | Method::MonteCarlo(_) => MANY,
             Method::Accurate(_) => FEW,
@@ -135,7 +135,7 @@ impl Estimation<'_> {
         if far.is_some() && nothing_between {
             return far;
         }
-        let between = self.view(between, pair.map(|patch| &self.parts[patch]), MANY)?;
+        let between = self.view(between, pair.map(|patch| &self.parts[patch]), FEW)?;
         let unoccluded = far.unwrap_or_else(|| accurate.near(pair, &self.obstacles));
         Some(accurate.past(pair, unoccluded, &between, &self.obstacles))
     }

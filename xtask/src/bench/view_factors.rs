@@ -26,13 +26,13 @@ struct Size {
 const SIZES: [Size; 4] = [
     Size {
         elements: 313,
-        tolerance: 7e-4,
+        tolerance: 8e-4,
         view3d_seconds: 0.24,
         runs: 7,
     },
     Size {
         elements: 1252,
-        tolerance: 0.01,
+        tolerance: 0.006,
         view3d_seconds: 2.2,
         runs: 5,
     },
