@@ -49,8 +49,8 @@ impl SymmetricMatrix {
     /// `sum_{i > j} S_ij x_i` of each row `j`, with the values at the end.
     ///
     /// The same bits for any number of threads and any instruction set. Over up to 512 numbers,
-    /// sums have the rounding errors of single precision. What would be multiplied by zeros alone is
-    /// not even read.
+    /// sums have the rounding errors of single precision. Bands of 512
+    /// values and blocks of 16 that are all zero are passed over.
     ///
     /// `update` must not wait for other threads of the pool: they may be waiting for it.
     ///

@@ -35,6 +35,19 @@ pub(super) struct Team<'a> {
     /// Bands of this step that are done.
     done: Apart<AtomicUsize>,
     is_over: AtomicBool,
+    /// Whether a helper has panicked, and its bands will never be done.
+    has_failed: AtomicBool,
+}
+
+/// Tells the team when it is dropped in a panic.
+struct TellPanic<'t>(&'t AtomicBool);
+
+impl Drop for TellPanic<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            self.0.store(true, Ordering::Release);
+        }
+    }
 }
 
 /// What would slow others down if it stood in the same line of memory.
@@ -84,6 +97,7 @@ impl<'a> Team<'a> {
             claims: (0..members).map(|_| Apart::default()).collect(),
             done: Apart::default(),
             is_over: AtomicBool::new(false),
+            has_failed: AtomicBool::new(false),
         }
     }
 
@@ -113,12 +127,19 @@ impl<'a> Team<'a> {
             claims.0.store((block as u64 + 1) * STEP, Ordering::Release);
         }
         leader.take_bands();
-        let bands = self.bands_of(block);
-        wait_while(|| self.done.0.load(Ordering::Acquire) < bands);
+        self.wait_for(self.bands_of(block));
+    }
+
+    /// Waits until so many bands of this step are done.
+    fn wait_for(&self, bands: usize) {
+        let has_failed = || self.has_failed.load(Ordering::Acquire);
+        wait_while(|| self.done.0.load(Ordering::Acquire) < bands && !has_failed());
+        assert!(!has_failed(), "a helper has panicked");
     }
 
     /// Takes part in all steps, as a member other than the first, until the team is dismissed.
     pub(super) fn help(&self, index: usize) {
+        let _guard = TellPanic(&self.has_failed);
         let mut member = Member::new(self, index);
         while !self.is_over.load(Ordering::Acquire) {
             let seen = member.take_bands();
@@ -209,5 +230,33 @@ fn wait_while(holds: impl Fn() -> bool) {
         } else {
             std::thread::yield_now();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::packed_len;
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+
+    /// The helper's run has a band that panics whoever takes it.
+    #[test]
+    fn nobody_waits_for_a_helper_that_has_panicked() {
+        let size = 4 * WIDTH;
+        let matrix = SymmetricMatrix::new(size, vec![0.0; packed_len(size)]).unwrap();
+        let x = vec![[1.0; 3]; size];
+        let team = Team::new(InstructionSet::current(), &matrix, &x, 1, 2);
+        let poison = || {
+            let _band = team.band(3);
+            panic!("on purpose");
+        };
+        assert!(catch_unwind(AssertUnwindSafe(poison)).is_err());
+        let block = size / BLOCK - 1;
+        for claims in &team.claims {
+            claims.0.store((block as u64 + 1) * STEP, Ordering::Release);
+        }
+        assert!(catch_unwind(AssertUnwindSafe(|| team.help(1))).is_err());
+        let wait = || team.wait_for(team.bands_of(block));
+        assert!(catch_unwind(AssertUnwindSafe(wait)).is_err());
     }
 }

@@ -14,7 +14,8 @@ pub(super) struct Triangle {
 }
 
 impl Triangle {
-    /// Takes the place of another. Where there are fewer rows, what was there is left.
+    /// Takes the place of another. Where there are fewer rows, what was there is left:
+    /// it only meets sums of rows that there are not.
     pub(super) fn set(&mut self, matrix: &SymmetricMatrix, rows: &Range<usize>) {
         let values = matrix.values();
         for (k, i) in rows.clone().enumerate() {
