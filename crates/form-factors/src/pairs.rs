@@ -90,8 +90,11 @@ impl Estimation<'_> {
     ) {
         let patches = &self.mesh.patches;
         let wall = |patch: usize| self.obstacles.wall(&patches[patch]);
-        let others = self.tiling.tiles[tile].patches.iter().copied();
-        let others = others.enumerate().filter(|&(_, j)| wall(j) != wall(i));
+        let tiles = &self.tiling.tiles;
+        // A tile on one wall would not be in view if the patch were on it, too.
+        let on_one_wall = tiles[tile].part.face.is_some();
+        let others = tiles[tile].patches.iter().copied().enumerate();
+        let others = others.filter(|&(_, j)| on_one_wall || wall(j) != wall(i));
         match &self.method {
             Method::Regular(regular) => {
                 let values = regular.exchange(lane, between, &self.obstacles, &mut room.regular);

@@ -126,7 +126,9 @@ fn blocked(
     let bundle = Bundle {
         points: [
             from.to_array().map(|coordinate| [unit * coordinate; LANES]),
-            j.points[q].map(|axis| axis.map(|coordinate| unit * coordinate)),
+            j.points[q]
+                .position
+                .map(|axis| axis.map(|coordinate| unit * coordinate)),
         ],
         faces: [[i.faces[lane]; LANES], j.faces],
     };

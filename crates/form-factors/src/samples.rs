@@ -1,9 +1,10 @@
 //! The regular points of eight patches side by side.
 
 use crate::obstacles::Obstacles;
-use crate::points::regular;
+use crate::points::{Sample, regular};
+use crate::stand_ins::stand_ins;
 use crate::tiles::Tile;
-use radiosity_geometry::{Aabb, DVec3, FaceId, Mesh};
+use radiosity_geometry::{Aabb, DVec3, FaceId, Mesh, Patch};
 use radiosity_simd::{Float, LANES, Simd};
 use std::f64::consts::PI;
 
@@ -13,11 +14,12 @@ pub(crate) type Lanes<T> = [T; LANES];
 /// The points of a tile, in units of the scene's extent.
 #[derive(Clone, Debug)]
 pub(crate) struct Samples {
-    /// By point: the coordinates.
-    pub(crate) points: Vec<[Lanes<f64>; 3]>,
-    /// By point: the area it stands for, so scaled that the products of two areas and the kernel
-    /// add up to the exchange in units of the total area.
-    areas: Vec<Lanes<f32>>,
+    pub(crate) points: Vec<Point<f64>>,
+    /// Those that stand for them far away; none if a patch has none.
+    stand_ins: Vec<Point<f64>>,
+    /// From the centroid to the farthest point.
+    radius: Lanes<f32>,
+    centroid: [Lanes<f64>; 3],
     normal: [Lanes<f64>; 3],
     /// Of the patches' planes.
     offset: Lanes<f64>,
@@ -29,14 +31,21 @@ pub(crate) struct Samples {
 /// the distances between patches that touch ask for.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Local {
-    pub(crate) points: Vec<LocalPoint>,
+    pub(crate) points: Vec<Point<f32>>,
+    pub(crate) stand_ins: Vec<Point<f32>>,
+    pub(crate) radius: Lanes<f32>,
+    pub(crate) centroid: [Lanes<f32>; 3],
     pub(crate) normal: [Lanes<f32>; 3],
     pub(crate) offset: Lanes<f32>,
 }
 
+/// A point on each of eight patches.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LocalPoint {
-    pub(crate) position: [Lanes<f32>; 3],
+pub(crate) struct Point<T> {
+    /// The coordinates.
+    pub(crate) position: [Lanes<T>; 3],
+    /// What the point stands for, so scaled that the products of two areas and the kernel add up to
+    /// the exchange in units of the total area.
     pub(crate) area: Lanes<f32>,
 }
 
@@ -67,38 +76,48 @@ impl Samples {
         points: u32,
         units: Units,
     ) -> Samples {
-        let count = (points * points) as usize;
-        let mut samples = Samples {
-            points: vec![[[0.0; LANES]; 3]; count],
-            areas: vec![[0.0; LANES]; count],
-            normal: [[0.0; LANES]; 3],
-            offset: [0.0; LANES],
-            center: mesh.patches[tile.patches[0]].centroid / units.length,
-            faces: [FaceId(u32::MAX); LANES],
+        let patches: Lanes<&Patch> = std::array::from_fn(|lane| {
+            let index = tile.patches.get(lane).unwrap_or(&tile.patches[0]);
+            &mesh.patches[*index]
+        });
+        let side_by_side = |of_lane: &dyn Fn(&Patch) -> Vec<Sample>| {
+            let samples = patches.map(of_lane);
+            let point = |k: usize| {
+                let sample = |lane: usize| samples[lane][k];
+                let area = |lane: usize| match tile.patches.get(lane) {
+                    Some(_) => (sample(lane).area / units.area) as f32,
+                    None => 0.0,
+                };
+                Point {
+                    position: vectors(|lane| sample(lane).point / units.length),
+                    area: std::array::from_fn(area),
+                }
+            };
+            let count = samples.iter().map(Vec::len).min().unwrap_or(0);
+            (0..count).map(point).collect::<Vec<Point<f64>>>()
         };
-        for lane in 0..LANES {
-            let patch = tile.patches.get(lane);
-            let patch_or_first = &mesh.patches[*patch.unwrap_or(&tile.patches[0])];
-            for (k, sample) in regular(&patch_or_first.polygon, points).iter().enumerate() {
-                for axis in 0..3 {
-                    samples.points[k][axis][lane] = sample.point[axis] / units.length;
-                }
-                if patch.is_some() {
-                    samples.areas[k][lane] = (sample.area / units.area) as f32;
-                }
-            }
-            let normal = patch_or_first.normal;
-            for axis in 0..3 {
-                samples.normal[axis][lane] = normal[axis];
-            }
-            samples.faces[lane] = obstacles.wall(patch_or_first);
-            samples.offset[lane] = normal.dot(patch_or_first.centroid) / units.length;
+        let all = |patch: &Patch| regular(&patch.polygon, points);
+        let few = |patch: &Patch| stand_ins(&patch.polygon, points).map_or(Vec::new(), Vec::from);
+        let radius = |patch: &Patch| {
+            let distances = all(patch)
+                .into_iter()
+                .map(|s| s.point.distance(patch.centroid));
+            (distances.fold(0.0, f64::max) / units.length) as f32
+        };
+        Samples {
+            points: side_by_side(&all),
+            stand_ins: side_by_side(&few),
+            radius: patches.map(radius),
+            centroid: vectors(|lane| patches[lane].centroid / units.length),
+            normal: vectors(|lane| patches[lane].normal),
+            offset: patches.map(|patch| patch.normal.dot(patch.centroid) / units.length),
+            center: patches[0].centroid / units.length,
+            faces: patches.map(|patch| obstacles.wall(patch)),
         }
-        samples
     }
 
     pub(crate) fn point(&self, point: usize, lane: usize) -> DVec3 {
-        DVec3::from_array(self.points[point].map(|axis| axis[lane]))
+        DVec3::from_array(self.points[point].position.map(|axis| axis[lane]))
     }
 
     pub(crate) fn normal(&self, lane: usize) -> DVec3 {
@@ -119,15 +138,36 @@ impl Samples {
         for (axis, normal) in local.normal.iter_mut().zip([nx, ny, nz]) {
             *axis = simd.narrow(normal).lanes();
         }
-        local.points.clear();
-        for (point, &area) in self.points.iter().zip(&self.areas) {
-            let mut position = [[0.0; LANES]; 3];
-            for (axis, position) in position.iter_mut().enumerate() {
-                *position = simd
-                    .narrow(simd.f64(&point[axis]) - simd.splat_f64(center[axis]))
-                    .lanes();
+        local.radius = self.radius;
+        local.centroid = relative(simd, &self.centroid, center);
+        for (points, local) in [
+            (&self.points, &mut local.points),
+            (&self.stand_ins, &mut local.stand_ins),
+        ] {
+            local.clear();
+            for Point { position, area } in points {
+                let position = relative(simd, position, center);
+                local.push(Point {
+                    position,
+                    area: *area,
+                });
             }
-            local.points.push(LocalPoint { position, area });
         }
     }
+}
+
+/// Vectors, one per lane, by axis.
+fn vectors(of_lane: impl Fn(usize) -> DVec3) -> [Lanes<f64>; 3] {
+    std::array::from_fn(|axis| std::array::from_fn(|lane| of_lane(lane)[axis]))
+}
+
+/// Rounds positions relative to one.
+#[inline(always)]
+fn relative<S: Simd>(simd: S, position: &[Lanes<f64>; 3], center: DVec3) -> [Lanes<f32>; 3] {
+    let mut rounded = [[0.0; LANES]; 3];
+    for (axis, rounded) in rounded.iter_mut().enumerate() {
+        let from_center = simd.f64(&position[axis]) - simd.splat_f64(center[axis]);
+        *rounded = simd.narrow(from_center).lanes();
+    }
+    rounded
 }

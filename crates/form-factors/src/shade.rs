@@ -91,7 +91,7 @@ impl Kernel for Measure<'_> {
         let zero = simd.splat_f64(0.0);
         let tolerance = simd.splat_f64(tolerance / unit);
         for point in &self.samples.points {
-            let [x, y, z] = point;
+            let [x, y, z] = &point.position;
             let point = [simd.f64(x), simd.f64(y), simd.f64(z)];
             let height = plane.heights(simd, point);
             let tiny = height.max(-height).less_or_equal(tolerance);

@@ -1,6 +1,6 @@
 //! The kernel of the form factor, summed over the points of a patch and of eight others.
 
-use crate::samples::{Lanes, Local, LocalPoint};
+use crate::samples::{Lanes, Local, Point};
 use radiosity_simd::{Float, Kernel, Simd};
 
 /// The sum over all pairs of points of a patch and each of eight others: their exchange, in units
@@ -28,8 +28,13 @@ pub(crate) struct Source {
 /// Points nearer than this, in units of the scene's extent, exchange nothing: where patches cross and
 /// points coincide, heights are rounding.
 const NEAREST: f32 = 1e-6;
+/// Points are farther apart than [`NEAREST`] if centroids are by more than that and so many radii.
+const TOUCHING: f32 = 2.1;
+/// Few points stand for all beyond so many radii: factors by either differ by 3.2e-7 at most there
+/// (`tests/few_points.rs` says why).
+const NEAR: f32 = 12.0;
 /// Squared: as good as infinitely far, but two such squares still have a product.
-const FAR: f32 = 1e18;
+const INFINITE: f32 = 1e18;
 
 impl Kernel for Transfer<'_> {
     type Output = Lanes<f32>;
@@ -37,28 +42,107 @@ impl Kernel for Transfer<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Lanes<f32> {
         let (from, lane) = self.from;
+        let apart = Apart::of(simd, (from, lane), self.to);
+        let few_do = self.blocked.is_none() && apart.are_far;
+        let (points, targets) = match few_do {
+            true => (&from.stand_ins, &self.to.stand_ins),
+            false => (&from.points, &self.to.points),
+        };
         self.sources.clear();
-        for point in &from.points {
+        for point in points {
             self.sources.push(source(simd, (point, lane), self.to));
         }
-        let plane = plane(from, lane);
-        let sum = match self.blocked {
-            None => sum::<S, false>(simd, plane, self.sources, &self.to.points, &[]),
-            Some(blocked) => sum::<S, true>(simd, plane, self.sources, &self.to.points, blocked),
+        let pairs = Pairs {
+            plane: Plane::of(from, lane),
+            sources: self.sources,
+            targets,
+            blocked: self.blocked.unwrap_or_default(),
+        };
+        let sum = match (self.blocked.is_some(), apart.never_touch) {
+            (false, true) => pairs.sum::<S, false, true>(simd),
+            (false, false) => pairs.sum::<S, false, false>(simd),
+            (true, true) => pairs.sum::<S, true, true>(simd),
+            (true, false) => pairs.sum::<S, true, false>(simd),
         };
         sum.lanes()
     }
 }
 
+/// The plane of a patch: where `normal * x = offset`.
+#[derive(Clone, Copy)]
+struct Plane {
+    normal: [f32; 3],
+    offset: f32,
+}
+
+impl Plane {
+    #[inline(always)]
+    fn of(local: &Local, lane: usize) -> Plane {
+        Plane {
+            normal: at(&local.normal, lane),
+            offset: local.offset[lane],
+        }
+    }
+}
+
+/// The vector in a lane.
 #[inline(always)]
-fn source<S: Simd>(simd: S, (point, lane): (&LocalPoint, usize), to: &Local) -> Source {
-    let position = point.position.map(|axis| axis[lane]);
-    let [nx, ny, nz] = to.normal;
-    let [x, y, z] = position;
-    let height = simd.f32(&nx) * simd.splat_f32(x)
-        + simd.f32(&ny) * simd.splat_f32(y)
-        + simd.f32(&nz) * simd.splat_f32(z)
-        - simd.f32(&to.offset);
+fn at([x, y, z]: &[Lanes<f32>; 3], lane: usize) -> [f32; 3] {
+    [x[lane], y[lane], z[lane]]
+}
+
+/// The product of eight vectors with one.
+#[inline(always)]
+fn times<S: Simd>(simd: S, [x, y, z]: [S::F32; 3], one: [f32; 3]) -> S::F32 {
+    x * simd.splat_f32(one[0]) + y * simd.splat_f32(one[1]) + z * simd.splat_f32(one[2])
+}
+
+#[inline(always)]
+fn load<S: Simd>(simd: S, [x, y, z]: &[Lanes<f32>; 3]) -> [S::F32; 3] {
+    [simd.f32(x), simd.f32(y), simd.f32(z)]
+}
+
+/// How far a patch is from each of eight others.
+struct Apart {
+    /// No point of one coincides with one of another.
+    never_touch: bool,
+    /// Few points can stand for all, and all of them lie on one side of the plane of the other patch.
+    are_far: bool,
+}
+
+impl Apart {
+    #[inline(always)]
+    fn of<S: Simd>(simd: S, (from, lane): (&Local, usize), to: &Local) -> Apart {
+        let [from_x, from_y, from_z] = at(&from.centroid, lane);
+        let [x, y, z] = load(simd, &to.centroid);
+        let (x, y, z) = (
+            x - simd.splat_f32(from_x),
+            y - simd.splat_f32(from_y),
+            z - simd.splat_f32(from_z),
+        );
+        let squared = x * x + y * y + z * z;
+        let (radius_to, radius_from) = (simd.f32(&to.radius), simd.splat_f32(from.radius[lane]));
+        let larger = radius_to.max(radius_from);
+        let touching = simd.splat_f32(TOUCHING) * larger + simd.splat_f32(NEAREST);
+        let near = simd.splat_f32(NEAR) * larger;
+        let height_to = times(simd, [x, y, z], at(&from.normal, lane));
+        let [nx, ny, nz] = load(simd, &to.normal);
+        let height_from = nx * x + ny * y + nz * z;
+        let mut far = (near * near).less(squared);
+        far &= radius_to.less(height_to.max(-height_to));
+        far &= radius_from.less(height_from.max(-height_from));
+        let can_stand_in = !from.stand_ins.is_empty() && !to.stand_ins.is_empty();
+        Apart {
+            never_touch: (touching * touching).less(squared) == !0,
+            are_far: can_stand_in && far == !0,
+        }
+    }
+}
+
+#[inline(always)]
+fn source<S: Simd>(simd: S, (point, lane): (&Point<f32>, usize), to: &Local) -> Source {
+    let position = at(&point.position, lane);
+    let height = times(simd, load(simd, &to.normal), position) - simd.f32(&to.offset);
     let height = height.max(simd.splat_f32(0.0)) * simd.splat_f32(point.area[lane]);
     Source {
         position,
@@ -66,70 +150,76 @@ fn source<S: Simd>(simd: S, (point, lane): (&LocalPoint, usize), to: &Local) -> 
     }
 }
 
-/// The normal of a patch, and its plane's offset.
-fn plane(of: &Local, lane: usize) -> [f32; 4] {
-    let [x, y, z] = of.normal.map(|axis| axis[lane]);
-    [x, y, z, of.offset[lane]]
+/// All pairs of a source and a target.
+struct Pairs<'a> {
+    plane: Plane,
+    sources: &'a [Source],
+    targets: &'a [Point<f32>],
+    /// As in [`Transfer`].
+    blocked: &'a [u8],
 }
 
-#[inline(always)]
-fn sum<S: Simd, const MARKED: bool>(
-    simd: S,
-    plane: [f32; 4],
-    sources: &[Source],
-    targets: &[LocalPoint],
-    blocked: &[u8],
-) -> S::F32 {
-    let [nx, ny, nz] = [plane[0], plane[1], plane[2]];
-    let (nx, ny, nz) = (simd.splat_f32(nx), simd.splat_f32(ny), simd.splat_f32(nz));
-    let offset = simd.splat_f32(plane[3]);
-    let (zero, one) = (simd.splat_f32(0.0), simd.splat_f32(1.0));
-    let (pairs, rest) = sources.as_chunks::<2>();
-    let mut total = zero;
-    for (t, target) in targets.iter().enumerate() {
-        let [x, y, z] = &target.position;
-        let (x, y, z) = (simd.f32(x), simd.f32(y), simd.f32(z));
-        let height = (nx * x + ny * y + nz * z - offset).max(zero) * simd.f32(&target.area);
-        let blocked = if MARKED {
-            &blocked[t * sources.len()..(t + 1) * sources.len()]
-        } else {
-            &[]
-        };
-        let mut from_all = zero;
-        for (k, [a, b]) in pairs.iter().enumerate() {
-            let square_a = squared_distance(simd, a, [x, y, z]);
-            let square_b = squared_distance(simd, b, [x, y, z]);
-            // One division for two.
-            let inverse = one / (square_a * square_b);
-            let (per_a, per_b) = (inverse * square_b, inverse * square_a);
-            let mut kernel_a = simd.f32(&a.heights) * (per_a * per_a);
-            let mut kernel_b = simd.f32(&b.heights) * (per_b * per_b);
-            if MARKED {
-                kernel_a = zero.select(blocked[2 * k], kernel_a);
-                kernel_b = zero.select(blocked[2 * k + 1], kernel_b);
+impl Pairs<'_> {
+    /// Some may be `BLOCKED`; they may touch unless they are `APART`.
+    #[inline(always)]
+    fn sum<S: Simd, const BLOCKED: bool, const APART: bool>(self, simd: S) -> S::F32 {
+        let offset = simd.splat_f32(self.plane.offset);
+        let (zero, one) = (simd.splat_f32(0.0), simd.splat_f32(1.0));
+        let count = self.sources.len();
+        let (pairs, rest) = self.sources.as_chunks::<2>();
+        let mut total = zero;
+        for (t, target) in self.targets.iter().enumerate() {
+            let position = load(simd, &target.position);
+            let height = (times(simd, position, self.plane.normal) - offset).max(zero);
+            let height = height * simd.f32(&target.area);
+            let blocked = match BLOCKED {
+                true => &self.blocked[t * count..(t + 1) * count],
+                false => &[],
+            };
+            let mut from_all = zero;
+            for (k, [a, b]) in pairs.iter().enumerate() {
+                let square_a = squared_distance::<S, APART>(simd, a, position);
+                let square_b = squared_distance::<S, APART>(simd, b, position);
+                // One division for two.
+                let inverse = one / (square_a * square_b);
+                let (per_a, per_b) = (inverse * square_b, inverse * square_a);
+                let mut kernel_a = simd.f32(&a.heights) * (per_a * per_a);
+                let mut kernel_b = simd.f32(&b.heights) * (per_b * per_b);
+                if BLOCKED {
+                    kernel_a = zero.select(blocked[2 * k], kernel_a);
+                    kernel_b = zero.select(blocked[2 * k + 1], kernel_b);
+                }
+                from_all = from_all + (kernel_a + kernel_b);
             }
-            from_all = from_all + (kernel_a + kernel_b);
-        }
-        if let [last] = rest {
-            let per = one / squared_distance(simd, last, [x, y, z]);
-            let mut kernel = simd.f32(&last.heights) * (per * per);
-            if MARKED {
-                kernel = zero.select(blocked[sources.len() - 1], kernel);
+            if let [last] = rest {
+                let per = one / squared_distance::<S, APART>(simd, last, position);
+                let mut kernel = simd.f32(&last.heights) * (per * per);
+                if BLOCKED {
+                    kernel = zero.select(blocked[count - 1], kernel);
+                }
+                from_all = from_all + kernel;
             }
-            from_all = from_all + kernel;
+            total = total + height * from_all;
         }
-        total = total + height * from_all;
+        total
     }
-    total
 }
 
+/// Points that coincide count as infinitely far apart, as good as; those that are `APART` never do.
 #[inline(always)]
-fn squared_distance<S: Simd>(simd: S, source: &Source, [x, y, z]: [S::F32; 3]) -> S::F32 {
+fn squared_distance<S: Simd, const APART: bool>(
+    simd: S,
+    source: &Source,
+    [x, y, z]: [S::F32; 3],
+) -> S::F32 {
     let [from_x, from_y, from_z] = source.position;
     let x = x - simd.splat_f32(from_x);
     let y = y - simd.splat_f32(from_y);
     let z = z - simd.splat_f32(from_z);
     let squared = x * x + y * y + z * z;
+    if APART {
+        return squared;
+    }
     let apart = simd.splat_f32(NEAREST * NEAREST).less(squared);
-    squared.select(apart, simd.splat_f32(FAR))
+    squared.select(apart, simd.splat_f32(INFINITE))
 }

@@ -1,0 +1,101 @@
+//! Far apart, few points stand for all of the regular ones: against the plain sum over all.
+
+mod plain;
+
+use plain::Plain;
+use radiosity_form_factors::{Estimator, estimate};
+use radiosity_geometry::{DVec3, Divisions, Shape, Surface, subdivide};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+/// How many radii of their points patches are apart where few begin to stand for all.
+const NEAR: f64 = 12.0;
+/// The largest difference is that of squares that face each other squarely, with three points along
+/// their edges: of four coordinates, the fourth moment of all points is larger by `2/729` edge^4 than
+/// that of few, and the fourth derivative of the kernel is `72 / d^4` times the kernel. More points
+/// have larger radii.
+const LARGEST: f64 = 3.2e-7;
+
+/// The largest difference of both factors between two shapes.
+fn difference(shapes: [Shape; 2], points: u32) -> f64 {
+    let surfaces = shapes.map(|shape| Surface {
+        shape,
+        divisions: None,
+    });
+    let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
+    let found = estimate(&mesh, Estimator::Regular { points }, &|_| ());
+    let plain = Plain::new(&mesh, points);
+    let error = |(i, j)| (found.factor(i, j) - plain.factor(i, j)).abs();
+    [(0, 1), (1, 0)].map(error).into_iter().fold(0.0, f64::max)
+}
+
+fn vector(rng: &mut Pcg64Mcg) -> DVec3 {
+    let mut coordinate = || rng.random_range(-1.0..1.0);
+    DVec3::new(coordinate(), coordinate(), coordinate())
+}
+
+/// A triangle or a parallelogram within about a unit around a point, whose front sees another point.
+fn shape(rng: &mut Pcg64Mcg, center: DVec3, seen: DVec3) -> Shape {
+    let (a, b) = (vector(rng), vector(rng));
+    let (a, b) = facing(a, b, seen - center);
+    match rng.random() {
+        true => Shape::Triangle([center, center + a, center + b]),
+        false => around(center, a, b),
+    }
+}
+
+/// Two edges in the order in which the front of what they span faces a direction.
+fn facing(a: DVec3, b: DVec3, direction: DVec3) -> (DVec3, DVec3) {
+    match a.cross(b).dot(direction) < 0.0 {
+        true => (b, a),
+        false => (a, b),
+    }
+}
+
+fn around(center: DVec3, edge_a: DVec3, edge_b: DVec3) -> Shape {
+    Shape::Parallelogram {
+        corner: center - 0.5 * (edge_a + edge_b),
+        edge_a,
+        edge_b,
+    }
+}
+
+/// A unit square in a random direction that faces another.
+fn square(rng: &mut Pcg64Mcg, center: DVec3, seen: DVec3) -> Shape {
+    let normal = ((seen - center).normalize() + vector(rng)).normalize();
+    let a = normal.cross(vector(rng)).normalize();
+    let (a, b) = facing(a, normal.cross(a), seen - center);
+    around(center, a, b)
+}
+
+#[test]
+fn few_points_make_what_all_do() {
+    let mut rng = Pcg64Mcg::seed_from_u64(5);
+    let mut worst: f64 = 0.0;
+    for points in [3, 4, 5] {
+        let radius = 0.5_f64.sqrt() * (1.0 - 1.0 / f64::from(points));
+        for _ in 0..2000 {
+            let direction = vector(&mut rng).normalize();
+            let near = 1.001 * NEAR * radius * direction;
+            let squares = [DVec3::ZERO, near].map(|at| square(&mut rng, at, near - at));
+            worst = worst.max(difference(squares, points));
+            let far = rng.random_range(6.0..16.0) * direction;
+            let shapes = [DVec3::ZERO, far].map(|at| shape(&mut rng, at, far - at));
+            worst = worst.max(difference(shapes, points));
+        }
+    }
+    println!("by {worst:.2e} at most");
+    assert!(worst < LARGEST, "{worst:.2e}");
+}
+
+/// What is derived above, where it is reached: were all points summed, there would be no difference.
+#[test]
+fn the_largest_difference_is_reached() {
+    let at = 1.001 * NEAR * 2.0_f64.sqrt() / 3.0 * DVec3::Z;
+    let squares = [
+        around(DVec3::ZERO, DVec3::X, DVec3::Y),
+        around(at, DVec3::Y, DVec3::X),
+    ];
+    let found = difference(squares, 3);
+    assert!(found > 0.9 * LARGEST && found < LARGEST, "{found:.2e}");
+}
