@@ -157,7 +157,7 @@ fn light<S: Simd>(
     // The area that stands for a piece of the line goes with its length.
     let area = simd.splat_f64(fan.area) * length;
     // A line without length has no light.
-    let scale = (height_of_p * area / (square * square)).select(zero.less(square), zero);
+    let scale = zero.if_less(square, height_of_p * area / (square * square), zero);
     Light {
         foot,
         squared: squared.max(simd.splat_f64(NEAREST * NEAREST)),
@@ -239,10 +239,10 @@ fn shadow_of<S: Simd>(
     }
     // An interval that ends before it begins is none.
     let beyond = simd.splat_f64(BEYOND);
-    let is_some = shadow.from.less(shadow.to);
+    let Interval { from, to } = shadow;
     Interval {
-        from: shadow.from.select(is_some, beyond),
-        to: shadow.to.select(is_some, beyond),
+        from: from.if_less(to, from, beyond),
+        to: from.if_less(to, to, beyond),
     }
 }
 
@@ -252,9 +252,9 @@ fn clip<F: Float<f64>>(interval: &mut Interval<F>, at_start: F, at_end: F) {
     // Infinite where the function is constant, with its sign; no number where it is zero, and then
     // the least of that and anything is no number either: nothing is left.
     let root = at_start / (at_start - at_end);
-    let grows = at_start.less(at_end);
-    interval.from = interval.from.max(root).select(grows, interval.from);
-    interval.to = interval.to.select(grows, interval.to.min(root));
+    let Interval { from, to } = *interval;
+    interval.from = at_start.if_less(at_end, from.max(root), from);
+    interval.to = at_start.if_less(at_end, to, to.min(root));
 }
 
 /// Intervals that are none stand here, where sorting leaves them last.
@@ -287,7 +287,7 @@ fn light_in_union<S: Simd>(
             union.from = next.from.select(apart, union.from);
             union.to = next.to.select(apart, union.to);
         }
-        union.to = union.to.max(next.to).select(is_some, union.to);
+        union.to = next.from.if_less(next.to, union.to.max(next.to), union.to);
     }
     covered + light.over(simd, union)
 }
@@ -298,14 +298,13 @@ fn sort<F: Float<f64>>(intervals: &mut [Interval<F>]) {
     for last in (1..intervals.len()).rev() {
         for k in 0..last {
             let (a, b) = (intervals[k], intervals[k + 1]);
-            let swap = b.from.less(a.from);
             intervals[k] = Interval {
-                from: b.from.select(swap, a.from),
-                to: b.to.select(swap, a.to),
+                from: b.from.if_less(a.from, b.from, a.from),
+                to: b.from.if_less(a.from, b.to, a.to),
             };
             intervals[k + 1] = Interval {
-                from: a.from.select(swap, b.from),
-                to: a.to.select(swap, b.to),
+                from: b.from.if_less(a.from, a.from, b.from),
+                to: b.from.if_less(a.from, a.to, b.to),
             };
         }
     }

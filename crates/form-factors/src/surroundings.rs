@@ -178,11 +178,14 @@ fn rays<S: Simd>(
 fn on_disk<S: Simd>(simd: S, a: S::F64, b: S::F64) -> [S::F64; 2] {
     let one = simd.splat_f64(1.0);
     let (a, b) = (a + a - one, b + b - one);
-    let steep = (a * a).less(b * b);
-    let (long, short) = (b.select(steep, a), a.select(steep, b));
+    let (of_a, of_b) = (a * a, b * b);
+    let (long, short) = (of_a.if_less(of_b, b, a), of_a.if_less(of_b, a, b));
     let [sin, cos] = sin_cos(simd, simd.splat_f64(FRAC_PI_4) * (short / long));
     let (along, across) = (long * cos, long * sin);
-    [across.select(steep, along), along.select(steep, across)]
+    [
+        of_a.if_less(of_b, across, along),
+        of_a.if_less(of_b, along, across),
+    ]
 }
 
 /// Sine and cosine of angles up to an eighth of a turn, to 3e-8: by Taylor's series.

@@ -125,8 +125,8 @@ pub(crate) fn points<S: Simd>(simd: S, target: &Target, u: S::F64, v: S::F64) ->
         return at(simd, target, u, v);
     }
     let one = simd.splat_f64(1.0);
-    let beyond = one.less(u + v);
-    let (u, v) = ((one - u).select(beyond, u), (one - v).select(beyond, v));
+    let sum = u + v;
+    let (u, v) = (one.if_less(sum, one - u, u), one.if_less(sum, one - v, v));
     at(simd, target, u, v)
 }
 
@@ -164,7 +164,7 @@ pub(crate) fn kernel<S: Simd>(
     let squared = x * x + y * y + z * z;
     let product = height_of_q * height_of_p;
     // Where points coincide nothing is divided by nothing.
-    (product / (squared * squared)).select(zero.less(product), zero)
+    zero.if_less(product, product / (squared * squared), zero)
 }
 
 #[inline(always)]

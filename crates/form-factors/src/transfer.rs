@@ -220,6 +220,6 @@ fn squared_distance<S: Simd, const APART: bool>(
     if APART {
         return squared;
     }
-    let apart = simd.splat_f32(NEAREST * NEAREST).less(squared);
-    squared.select(apart, simd.splat_f32(INFINITE))
+    simd.splat_f32(NEAREST * NEAREST)
+        .if_less(squared, squared, simd.splat_f32(INFINITE))
 }

@@ -146,7 +146,7 @@ fn on_lattice(k: usize, c: usize) -> f64 {
 pub(crate) fn coordinate<S: Simd>(simd: S, k: usize, c: usize, shifts: &Shifts) -> S::F64 {
     let one = simd.splat_f64(1.0);
     let x = simd.splat_f64(on_lattice(k, c)) + simd.f64(&shifts[c]);
-    let x = x.select(x.less(one), x - one);
+    let x = x.if_less(one, x, x - one);
     let twice = x + x;
     twice.min(one + one - twice)
 }

@@ -15,14 +15,14 @@ registers! {
     F32: f32, [__m256; 1],
     _mm256_loadu_ps, _mm256_storeu_ps, _mm256_set1_ps,
     _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_min_ps, _mm256_max_ps,
-    _mm256_sqrt_ps, less_f32, less_or_equal_f32, select_f32
+    _mm256_sqrt_ps, less_f32, less_or_equal_f32, select_f32, if_less_f32
 }
 
 registers! {
     F64: f64, [__m256d; 2],
     _mm256_loadu_pd, _mm256_storeu_pd, _mm256_set1_pd,
     _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_min_pd, _mm256_max_pd,
-    _mm256_sqrt_pd, less_f64, less_or_equal_f64, select_f64
+    _mm256_sqrt_pd, less_f64, less_or_equal_f64, select_f64, if_less_f64
 }
 
 registers! {
@@ -141,4 +141,18 @@ unsafe fn select_f64(mask: u8, a: __m256d, b: __m256d) -> __m256d {
         let chosen = _mm256_cmpeq_epi64(set, bits);
         _mm256_blendv_pd(b, a, _mm256_castsi256_pd(chosen))
     }
+}
+
+/// Only where the processor has the instructions.
+#[inline(always)]
+unsafe fn if_less_f32(a: __m256, b: __m256, then: __m256, otherwise: __m256) -> __m256 {
+    // SAFETY: the caller's.
+    unsafe { _mm256_blendv_ps(otherwise, then, _mm256_cmp_ps::<_CMP_LT_OQ>(a, b)) }
+}
+
+/// Only where the processor has the instructions.
+#[inline(always)]
+unsafe fn if_less_f64(a: __m256d, b: __m256d, then: __m256d, otherwise: __m256d) -> __m256d {
+    // SAFETY: the caller's.
+    unsafe { _mm256_blendv_pd(otherwise, then, _mm256_cmp_pd::<_CMP_LT_OQ>(a, b)) }
 }

@@ -15,14 +15,14 @@ registers! {
     F32: f32, [__m256; 1],
     _mm256_loadu_ps, _mm256_storeu_ps, _mm256_set1_ps,
     _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_min_ps, _mm256_max_ps,
-    _mm256_sqrt_ps, less_f32, less_or_equal_f32, select_f32
+    _mm256_sqrt_ps, less_f32, less_or_equal_f32, select_f32, if_less_f32
 }
 
 registers! {
     F64: f64, [__m512d; 1],
     _mm512_loadu_pd, _mm512_storeu_pd, _mm512_set1_pd,
     _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_min_pd, _mm512_max_pd,
-    _mm512_sqrt_pd, less_f64, less_or_equal_f64, select_f64
+    _mm512_sqrt_pd, less_f64, less_or_equal_f64, select_f64, if_less_f64
 }
 
 registers! {
@@ -78,7 +78,7 @@ unsafe fn widen(numbers: F32) -> F64 {
 macro_rules! masked {
     (
         $register:ty, $less:ident, $less_or_equal:ident, $compare:ident, $select:ident,
-        $blend:ident
+        $if_less:ident, $blend:ident
     ) => {
         /// Only where the processor has the instructions.
         #[inline(always)]
@@ -100,6 +100,18 @@ macro_rules! masked {
             // SAFETY: the caller's.
             unsafe { $blend(mask, b, a) }
         }
+
+        /// Only where the processor has the instructions.
+        #[inline(always)]
+        unsafe fn $if_less(
+            a: $register,
+            b: $register,
+            then: $register,
+            otherwise: $register,
+        ) -> $register {
+            // SAFETY: the caller's.
+            unsafe { $blend($compare::<_CMP_LT_OQ>(a, b), otherwise, then) }
+        }
     };
 }
 
@@ -109,6 +121,7 @@ masked!(
     less_or_equal_f32,
     _mm256_cmp_ps_mask,
     select_f32,
+    if_less_f32,
     _mm256_mask_blend_ps
 );
 masked!(
@@ -117,5 +130,6 @@ masked!(
     less_or_equal_f64,
     _mm512_cmp_pd_mask,
     select_f64,
+    if_less_f64,
     _mm512_mask_blend_pd
 );

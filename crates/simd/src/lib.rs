@@ -98,6 +98,9 @@ pub trait Float<T>:
     fn less_or_equal(self, other: Self) -> u8;
     /// Where `mask` has a bit, `self`, elsewhere `other`.
     fn select(self, mask: u8, other: Self) -> Self;
+    /// Where `self < other`, `then`, elsewhere `otherwise`: with [`Float::less`] and
+    /// [`Float::select`] it would take longer where the processor has no bits per lane.
+    fn if_less(self, other: Self, then: Self, otherwise: Self) -> Self;
     /// The lanes.
     fn lanes(self) -> [T; LANES];
 }

@@ -157,6 +157,17 @@ impl<T: Scalar> Float<T> for Array<T> {
     }
 
     #[inline(always)]
+    fn if_less(self, other: Array<T>, then: Array<T>, otherwise: Array<T>) -> Array<T> {
+        Array(from_fn(|k| {
+            if self.0[k] < other.0[k] {
+                then.0[k]
+            } else {
+                otherwise.0[k]
+            }
+        }))
+    }
+
+    #[inline(always)]
     fn select(self, mask: u8, other: Array<T>) -> Array<T> {
         Array(from_fn(|k| {
             if mask >> k & 1 != 0 {

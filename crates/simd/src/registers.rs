@@ -7,7 +7,7 @@ macro_rules! registers {
         $name:ident: $scalar:ty, [$register:ty; $count:literal],
         $load:ident, $store:ident, $splat:ident,
         $add:ident, $sub:ident, $mul:ident, $div:ident, $min:ident, $max:ident,
-        $sqrt:ident, $less:ident, $less_or_equal:ident, $select:ident
+        $sqrt:ident, $less:ident, $less_or_equal:ident, $select:ident, $if_less:ident
     ) => {
         registers!(@memory $name, $scalar, LANES, [$register; $count], $load, $store, $splat);
 
@@ -62,6 +62,17 @@ macro_rules! registers {
                 for (k, (result, other)) in result.iter_mut().zip(other.0).enumerate() {
                     // SAFETY: lanes exist only where the processor has the instructions.
                     *result = unsafe { $select(mask >> (k * Self::WIDTH), *result, other) };
+                }
+                $name(result)
+            }
+
+            #[inline(always)]
+            fn if_less(self, other: $name, then: $name, otherwise: $name) -> $name {
+                let mut result = self.0;
+                for (k, result) in result.iter_mut().enumerate() {
+                    let (other, then, otherwise) = (other.0[k], then.0[k], otherwise.0[k]);
+                    // SAFETY: lanes exist only where the processor has the instructions.
+                    *result = unsafe { $if_less(*result, other, then, otherwise) };
                 }
                 $name(result)
             }

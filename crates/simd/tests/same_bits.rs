@@ -21,6 +21,7 @@ macro_rules! everything {
                 let mut results: Vec<_> = numbers.into_iter().map(Float::lanes).collect();
                 results.push(simd.$splat(self.0[3]).lanes());
                 results.push(a.select(SELECTED, b).lanes());
+                results.push(a.if_less(b, a + b, -a).lanes());
                 (results, [a.less(b), a.less_or_equal(b)])
             }
         }
@@ -51,6 +52,7 @@ macro_rules! everything {
                             self.1[k]
                         }
                     }),
+                    each(|a, b| if a < b { a + b } else { -a }),
                 ];
                 (numbers, [mask(|a, b| a < b), mask(|a, b| a <= b)])
             }
