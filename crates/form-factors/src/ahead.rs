@@ -1,6 +1,6 @@
 //! The few walls in front of a patch, and which of them rays from it meet first.
 
-use crate::blocker::{PLANES, Plane};
+use crate::blocker::{EDGES, Plane};
 use crate::obstacles::Obstacles;
 use crate::target::Points;
 use radiosity_geometry::{DVec3, FaceId, Patch};
@@ -20,9 +20,12 @@ pub(crate) struct Ahead {
 }
 
 struct Wall {
-    planes: [LocalPlane; PLANES],
-    /// All lanes, if neither side is a front.
-    bare: u8,
+    plane: LocalPlane,
+    edges: [LocalPlane; EDGES],
+    /// Of parallelograms, how far the third edge is from the first, and the fourth from the second.
+    widths: Option<[f32; 2]>,
+    /// Neither side is a front.
+    bare: bool,
 }
 
 /// A plane relative to the patch's centroid: what is near keeps its digits.
@@ -59,10 +62,15 @@ impl Ahead {
             if id == own || corners.clone().all(|&c| plane.height(c) <= tolerance) {
                 continue;
             }
-            let planes = &obstacles.blocker(id).planes;
+            let planes = obstacles.blocker(id).planes;
+            let [plane, edges @ ..] = planes.map(|plane| LocalPlane::new(plane, patch.centroid));
+            let width = |k: usize| edges[k].height + edges[k + 2].height;
+            let widths = polygon.is_parallelogram().then(|| [width(0), width(1)]);
             ahead.walls.push(Wall {
-                planes: planes.map(|plane| LocalPlane::new(plane, patch.centroid)),
-                bare: if obstacles.walls.bare[k] { !0 } else { 0 },
+                plane,
+                edges,
+                widths,
+                bare: obstacles.walls.bare[k],
             });
             let distance = |&corner: &DVec3| corner.distance(patch.centroid) as f32;
             let farthest = corners.map(distance).fold(0.0, f32::max);
@@ -73,8 +81,8 @@ impl Ahead {
 
     /// What rays from points of the patch, in directions of unit length, meet first.
     ///
-    /// A ray meets a wall if it comes nearer to its plane, and if where it crosses that its height over
-    /// each edge, times a positive number, is not negative.
+    /// A ray meets a wall if it comes nearer to its plane, and if where it crosses that it is inside of
+    /// all edges. A back as near as a front is met first.
     #[inline(always)]
     pub(crate) fn meet<S: Simd>(
         &self,
@@ -82,7 +90,6 @@ impl Ahead {
         from: &Points<S::F64>,
         direction: [S::F64; 3],
     ) -> Met {
-        let (zero, outside) = (simd.splat_f32(0.0), simd.splat_f32(-self.margin));
         let from = [
             simd.narrow(from.x - simd.splat_f64(self.centroid.x)),
             simd.narrow(from.y - simd.splat_f64(self.centroid.y)),
@@ -90,27 +97,54 @@ impl Ahead {
         ];
         let [x, y, z] = direction;
         let direction = [simd.narrow(x), simd.narrow(y), simd.narrow(z)];
-        let mut nearest = simd.splat_f32(f32::INFINITY);
-        let mut met = Met {
-            backs: 0,
-            nothing: !0,
-        };
+        let (zero, outside) = (simd.splat_f32(0.0), simd.splat_f32(-self.margin));
+        let nowhere = simd.splat_f32(f32::INFINITY);
+        let (mut nearest, mut nearest_back) = (nowhere, nowhere);
         for wall in &self.walls {
-            let [plane, edges @ ..] = &wall.planes;
-            let (height, rise) = (plane.height(simd, from), plane.rise(simd, direction));
+            let height = wall.plane.height(simd, from);
+            let rise = wall.plane.rise(simd, direction);
             let (distance, speed) = (height.max(-height), rise.max(-rise));
-            let mut hits = (height * rise).less(zero);
-            for edge in edges {
-                let at = edge.height(simd, from) * speed + edge.rise(simd, direction) * distance;
-                hits &= outside.less_or_equal(at);
-            }
-            let at = distance / speed;
-            hits &= at.less(nearest);
-            nearest = at.select(hits, nearest);
-            met.backs = met.backs & !hits | (height.less(zero) | wall.bare) & hits;
-            met.nothing &= !hits;
+            let inside = wall.inside(simd, (from, distance), (direction, speed));
+            let at = inside.if_less(outside, nowhere, distance / speed);
+            let at = (height * rise).if_less(zero, at, nowhere);
+            nearest = nearest.min(at);
+            let at_back = match wall.bare {
+                true => at,
+                false => height.if_less(zero, at, nowhere),
+            };
+            nearest_back = nearest_back.min(at_back);
         }
-        met
+        let something = nearest.less(nowhere);
+        Met {
+            backs: nearest_back.less_or_equal(nearest) & something,
+            nothing: !something,
+        }
+    }
+}
+
+impl Wall {
+    /// The least height over an edge of where rays cross the wall's plane, times their speed toward it.
+    /// Negative outside.
+    #[inline(always)]
+    fn inside<S: Simd>(
+        &self,
+        simd: S,
+        (from, distance): ([S::F32; 3], S::F32),
+        (direction, speed): ([S::F32; 3], S::F32),
+    ) -> S::F32 {
+        let mut least = simd.splat_f32(f32::INFINITY);
+        let tested = match self.widths {
+            Some(_) => &self.edges[..2],
+            None => &self.edges[..],
+        };
+        for (k, edge) in tested.iter().enumerate() {
+            let at = edge.height(simd, from) * speed + edge.rise(simd, direction) * distance;
+            least = least.min(at);
+            if let Some(widths) = self.widths {
+                least = least.min(simd.splat_f32(widths[k]) * speed - at);
+            }
+        }
+        least
     }
 }
 
