@@ -26,7 +26,7 @@ pub(super) struct Ray {
 
 /// The course's form factor loop over a mesh of parallelograms.
 pub(super) struct Baseline<'a> {
-    mesh: &'a Mesh,
+    pub(super) mesh: &'a Mesh,
     rectangles: Vec<Rectangle>,
     points: Vec<Vec<DVec3>>,
 }

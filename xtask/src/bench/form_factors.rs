@@ -9,14 +9,18 @@ use radiosity::{Error, Pipeline, Silent, Sources, cells};
 use std::path::Path;
 use std::time::Instant;
 
-/// Patches along each edge of the course's rectangles, how often each is timed, and how many times
-/// faster than the course's program it is promised to be.
+/// Patches along each edge of the course's rectangles, how often each is timed beside the course's
+/// program, and how many times faster than that it is promised to be.
 const SIZES: [(u32, u32, Option<f64>); 4] = [
-    (12, 9, Some(600.0)),
-    (24, 5, Some(1000.0)),
-    (48, 2, None),
+    (12, 7, Some(600.0)),
+    (24, 7, Some(1000.0)),
+    (48, 3, None),
     (72, 1, None),
 ];
+/// The accurate mode is timed so often.
+const ROUNDS: u32 = 7;
+/// In a round the best of so many runs counts.
+const RUNS: u32 = 3;
 /// Seconds that 48 patches along each edge, 27,648 in all, may take.
 const MOST_SECONDS: f64 = 4.0;
 /// The course program's own rate.
@@ -25,7 +29,7 @@ const COURSE_RATE: f64 = 8.5e6;
 /// division and five products.
 const OPERATIONS: f64 = 13.0;
 /// Every so many rows are enough to know the baseline's rate.
-const ROW_STRIDE: usize = 12;
+const ROW_STRIDE: usize = 36;
 
 /// A tolerance at which the accurate mode has a hundredth of the course's error, and one that
 /// stands for the truth.
@@ -35,23 +39,26 @@ const CONVERGED: f64 = 3e-5;
 pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
     let mut scene = load(&root.join("scenes/cornell.toml"))?;
     let mesh = cut(&scene, SIZES[0].0)?;
-    let rate = baseline_rate(&mesh);
-    let mut figures = vec![Figure::new(
-        "form_factors.baseline.rate".to_owned(),
-        Some(1e-6 * rate),
-        "million point pairs/s, one thread",
-        Some(Target::AtLeast(1e-6 * COURSE_RATE)),
-    )];
+    let baseline = Baseline::new(&mesh);
     let peak = machine::peak();
-    figures.push(Figure::new(
-        "form_factors.peak".to_owned(),
-        Some(1e-9 * peak),
-        "billion multiplications and additions/s, one thread",
-        None,
-    ));
-    figures.extend(sizes(&scene, rate, peak)?);
+    let (of_sizes, rate) = sizes(&scene, &baseline, peak)?;
+    let mut figures = vec![
+        Figure::new(
+            "form_factors.baseline.rate".to_owned(),
+            Some(1e-6 * rate),
+            "million point pairs/s, one thread, at best",
+            Some(Target::AtLeast(1e-6 * COURSE_RATE)),
+        ),
+        Figure::new(
+            "form_factors.peak".to_owned(),
+            Some(1e-9 * peak),
+            "billion multiplications and additions/s, one thread",
+            None,
+        ),
+    ];
+    figures.extend(of_sizes);
     figures.extend(instruction_sets(root));
-    figures.extend(accuracy(&mut scene, point_pairs(&mesh) / rate)?);
+    figures.extend(accuracy(&mut scene, &baseline)?);
     super::show(&figures, json);
     Ok(())
 }
@@ -62,11 +69,10 @@ fn cut(scene: &Scene, divisions: u32) -> Result<Mesh, Error> {
 }
 
 /// Pairs of points per second, on one thread.
-fn baseline_rate(mesh: &Mesh) -> f64 {
-    let baseline = Baseline::new(mesh);
+fn baseline_rate(baseline: &Baseline<'_>) -> f64 {
     let start = Instant::now();
     let (mut sum, mut pairs) = (0.0, 0);
-    for i in (0..mesh.patches.len()).step_by(ROW_STRIDE) {
+    for i in (0..baseline.mesh.patches.len()).step_by(ROW_STRIDE) {
         let (of_row, pairs_of_row) = baseline.row(i);
         sum += of_row;
         pairs += pairs_of_row;
@@ -88,31 +94,62 @@ fn point_pairs(mesh: &Mesh) -> f64 {
 
 /// What the course's loop takes for all rows.
 pub(super) fn baseline_seconds(mesh: &Mesh) -> f64 {
-    point_pairs(mesh) / baseline_rate(mesh)
+    point_pairs(mesh) / baseline_rate(&Baseline::new(mesh))
 }
 
-/// The best of several runs, in seconds.
-fn estimate_seconds(mesh: &Mesh, estimator: Estimator, runs: u32) -> f64 {
-    best_seconds(runs, || {
-        std::hint::black_box(estimate(mesh, estimator, &|_| ()));
-    })
+/// An estimator beside the baseline.
+struct Race {
+    /// The shortest that the estimator took.
+    seconds: f64,
+    /// Of the baseline at its best, in pairs of points per second.
+    rate: f64,
+    /// How many times longer the baseline takes: the middle of all rounds.
+    ratio: f64,
 }
 
-/// The regular rule as patches grow more.
-fn sizes(scene: &Scene, rate: f64, peak: f64) -> Result<Vec<Figure>, Error> {
+impl Race {
+    /// In turn, since machines are faster in one minute than in the next.
+    fn run(baseline: &Baseline<'_>, mesh: &Mesh, estimator: Estimator, rounds: u32) -> Race {
+        let round = |_| {
+            let rate = baseline_rate(baseline);
+            let seconds = best_seconds(RUNS.min(rounds), || {
+                std::hint::black_box(estimate(mesh, estimator, &|_| ()));
+            });
+            (seconds, rate)
+        };
+        let rounds: Vec<(f64, f64)> = (0..rounds).map(round).collect();
+        let ratio = |&(seconds, rate): &(f64, f64)| point_pairs(mesh) / rate / seconds;
+        let mut ratios: Vec<f64> = rounds.iter().map(ratio).collect();
+        ratios.sort_by(f64::total_cmp);
+        Race {
+            seconds: rounds.iter().map(|r| r.0).fold(f64::INFINITY, f64::min),
+            rate: rounds.iter().map(|r| r.1).fold(0.0, f64::max),
+            ratio: ratios[ratios.len() / 2],
+        }
+    }
+}
+
+/// The regular rule as patches grow more, and the baseline's best rate.
+fn sizes(scene: &Scene, baseline: &Baseline<'_>, peak: f64) -> Result<(Vec<Figure>, f64), Error> {
     let mut figures = Vec::new();
+    let mut best_rate: f64 = 0.0;
     let mut last: Option<(f64, f64)> = None;
-    for (divisions, runs, promise) in SIZES {
+    for (divisions, rounds, promise) in SIZES {
         let mesh = cut(scene, divisions)?;
         let patches = mesh.patches.len() as f64;
-        let seconds = estimate_seconds(&mesh, Estimator::Regular { points: 3 }, runs);
+        let regular = Estimator::Regular { points: 3 };
+        let Race {
+            seconds,
+            rate,
+            ratio,
+        } = Race::run(baseline, &mesh, regular, rounds);
+        best_rate = best_rate.max(rate);
         let mut add = |what: &str, value: f64, unit, target| {
             let name = format!("form_factors.regular.{divisions}.{what}");
             figures.push(Figure::new(name, Some(value), unit, target));
         };
         let limit = (divisions == 48).then_some(Target::Between(0.0, MOST_SECONDS));
         add("seconds", seconds, "s", limit);
-        let ratio = point_pairs(&mesh) / rate / seconds;
         add(
             "speedup",
             ratio,
@@ -138,7 +175,7 @@ fn sizes(scene: &Scene, rate: f64, peak: f64) -> Result<Vec<Figure>, Error> {
         }
         last = Some((patches, seconds));
     }
-    Ok(figures)
+    Ok((figures, best_rate))
 }
 
 /// The same on each instruction set.
@@ -154,7 +191,7 @@ fn instruction_sets(root: &Path) -> Vec<Figure> {
 }
 
 /// The accurate mode against the course's rule, by time and by radiosities.
-fn accuracy(scene: &mut Scene, baseline_seconds: f64) -> Result<Vec<Figure>, Error> {
+fn accuracy(scene: &mut Scene, baseline: &Baseline<'_>) -> Result<Vec<Figure>, Error> {
     let settings = &mut scene.form_factors;
     (settings.mode, settings.points) = (Mode::Regular, 3);
     let course = radiosities(scene)?;
@@ -165,13 +202,12 @@ fn accuracy(scene: &mut Scene, baseline_seconds: f64) -> Result<Vec<Figure>, Err
     let accurate = radiosities(scene)?;
     let mesh = cut(scene, SIZES[0].0)?;
     let tolerance = TOLERANCE;
-    let seconds = estimate_seconds(&mesh, Estimator::Accurate { tolerance }, 5);
+    let race = Race::run(baseline, &mesh, Estimator::Accurate { tolerance }, ROUNDS);
     let errors = [&course, &accurate].map(|found| 100.0 * relative_error(found, &truth));
     let figure = |name: &str, value: f64, unit, target| {
         Figure::new(format!("form_factors.{name}"), Some(value), unit, target)
     };
     let hundred = Some(Target::AtLeast(100.0));
-    let ratio = baseline_seconds / seconds;
     Ok(vec![
         figure("regular.12.radiosity_error", errors[0], "%", None),
         figure("accurate.12.radiosity_error", errors[1], "%", None),
@@ -181,8 +217,13 @@ fn accuracy(scene: &mut Scene, baseline_seconds: f64) -> Result<Vec<Figure>, Err
             "times the baseline",
             hundred,
         ),
-        figure("accurate.12.seconds", seconds, "s", None),
-        figure("accurate.12.speedup", ratio, "times the baseline", hundred),
+        figure("accurate.12.seconds", race.seconds, "s", None),
+        figure(
+            "accurate.12.speedup",
+            race.ratio,
+            "times the baseline",
+            hundred,
+        ),
     ])
 }
 
