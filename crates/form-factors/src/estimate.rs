@@ -96,7 +96,7 @@ impl<'a> Estimation<'a> {
             let group = &groups[spread(0.569_840_290_998_053, groups.len())];
             let mut sum = 0.0;
             let mut room = Room::default();
-            let add = |_, _, told: Told| sum += told.value;
+            let add = |_, told: Told<'_>| sum += told.values.iter().sum::<f32>();
             let patches = |tile: &Tile| tile.patches.len() as u64;
             let lanes = 0..tiles[tile].patches.len();
             self.against((tile, lanes), group, &mut room, &mut { add });
@@ -182,7 +182,11 @@ impl<'a> Estimation<'a> {
     pub fn row(&self, cluster: usize, place: usize) -> Vec<f32> {
         let mut row = vec![0.0; self.mesh.patches.len()];
         let mut room = Room::default();
-        let mut tell = |_, j: usize, told: Told| row[j] = told.value;
+        let mut tell = |_, told: Told<'_>| {
+            for (&j, &value) in told.others.iter().zip(told.values) {
+                row[j] = value;
+            }
+        };
         for group in &self.tiling.groups {
             self.against((cluster, place..place + 1), group, &mut room, &mut tell);
         }
@@ -212,18 +216,21 @@ impl<'a> Estimation<'a> {
         let patches = &self.tiling.tiles[tile].patches;
         let area = |patch: usize| self.mesh.patches[patch].area;
         let mut classes = Classes::default();
-        let mut tell = |lane: usize, j: usize, told: Told| {
-            // Only small faces share their tile with patches that come after.
-            let Some(entry) = rows[lane].get_mut(j) else {
-                return;
-            };
-            *entry = told.value;
-            if let Some((sight, error)) = told.estimate {
-                let i = patches[lane];
-                tally.add_error(i, error / area(i));
-                tally.add_error(j, error / area(j));
-                // In a mean over rows a pair counts twice.
-                classes.add(sight, 2.0 * error * self.scale);
+        let mut tell = |lane: usize, told: Told<'_>| {
+            let row = &mut *rows[lane];
+            for (&j, &value) in told.others.iter().zip(told.values) {
+                // Only small faces share their tile with patches that come after.
+                let Some(entry) = row.get_mut(j) else {
+                    continue;
+                };
+                *entry = value;
+                if let Some((sight, error)) = told.estimate {
+                    let i = patches[lane];
+                    tally.add_error(i, error / area(i));
+                    tally.add_error(j, error / area(j));
+                    // In a mean over rows a pair counts twice.
+                    classes.add(sight, 2.0 * error * self.scale);
+                }
             }
         };
         let groups = self.tiling.groups.iter();

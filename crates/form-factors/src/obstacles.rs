@@ -76,6 +76,11 @@ impl Obstacles {
 const FASTER_THAN_TREE: usize = 12;
 
 impl Between {
+    /// Whether nothing is.
+    pub(crate) fn is_clear(&self) -> bool {
+        matches!(self, Between::Few(faces) if faces.is_empty())
+    }
+
     /// Whether one of these, or of all faces, cuts the segment from `p` on face `i` to `q` on `j`.
     pub(crate) fn cuts(
         &self,

@@ -14,30 +14,34 @@ const FEW: usize = 64;
 /// Between parts that all segments of the regular rule, 81 of them, are tried at once.
 const MANY: usize = 256;
 
-/// What is found out about a pair.
-pub(crate) struct Told {
-    /// `S_ij`, in units of the total area.
-    pub(crate) value: f32,
-    /// How much they see of each other, and the error of `S_ij` in scene units, if it is known.
+/// What is found out about a patch and some others, often a single one.
+pub(crate) struct Told<'a> {
+    pub(crate) others: &'a [usize],
+    /// `S_ij` with each of them, in units of the total area.
+    pub(crate) values: &'a [f32],
+    /// How much a pair sees of each other, and the error of `S_ij` in scene units, if it is known.
     pub(crate) estimate: Option<(Sight, f64)>,
 }
 
-impl Told {
-    fn plain(value: f32) -> Told {
-        let estimate = None;
-        Told { value, estimate }
+impl<'a> Told<'a> {
+    fn plain(others: &'a [usize], values: &'a [f32]) -> Told<'a> {
+        Told {
+            others,
+            values,
+            estimate: None,
+        }
     }
 }
 
 impl Estimation<'_> {
     /// Estimates the exchange of some patches of a tile, by their lanes, with those of a group; tells
-    /// of those that may not be zero: lane, index, and what is found out.
+    /// of those that may not be zero: the lane, and what is found out.
     pub(crate) fn against(
         &self,
         (tile, lanes): (usize, Range<usize>),
         group: &Group,
         room: &mut Room,
-        tell: &mut impl FnMut(usize, usize, Told),
+        tell: &mut impl FnMut(usize, Told<'_>),
     ) {
         let tiles = &self.tiling.tiles;
         let part = &tiles[tile].part;
@@ -58,6 +62,15 @@ impl Estimation<'_> {
             let Some(between) = narrowed else { continue };
             if let Method::Regular(regular) = &self.method {
                 regular.prepare([tile, other], &mut room.regular);
+                if between.is_clear()
+                    && let Some(values) = regular.exchange_far(&lanes, &mut room.regular)
+                {
+                    let others = &tiles[other].patches;
+                    for lane in lanes.clone() {
+                        tell(lane, Told::plain(others, &values[lane]));
+                    }
+                    continue;
+                }
             }
             for lane in lanes.clone() {
                 let i = tiles[tile].patches[lane];
@@ -86,7 +99,7 @@ impl Estimation<'_> {
         tile: usize,
         between: &Between,
         room: &mut Room,
-        tell: &mut impl FnMut(usize, usize, Told),
+        tell: &mut impl FnMut(usize, Told<'_>),
     ) {
         let patches = &self.mesh.patches;
         let wall = |patch: usize| self.obstacles.wall(&patches[patch]);
@@ -98,7 +111,10 @@ impl Estimation<'_> {
         match &self.method {
             Method::Regular(regular) => {
                 let values = regular.exchange(lane, between, &self.obstacles, &mut room.regular);
-                others.for_each(|(k, j)| tell(lane, j, Told::plain(values[k])));
+                match on_one_wall {
+                    true => tell(lane, Told::plain(&tiles[tile].patches, &values)),
+                    false => others.for_each(|(k, j)| tell(lane, Told::plain(&[j], &[values[k]]))),
+                }
             }
             Method::MonteCarlo(monte_carlo) => {
                 for (_, j) in others {
@@ -106,7 +122,7 @@ impl Estimation<'_> {
                     let value = monte_carlo.estimate(ends, &mut room.strata, |p, q| {
                         !between.cuts(&self.obstacles.occluders, (wall(i), p), (wall(j), q))
                     });
-                    tell(lane, j, Told::plain((value * self.scale) as f32));
+                    tell(lane, Told::plain(&[j], &[(value * self.scale) as f32]));
                 }
             }
             Method::Accurate(accurate) => {
@@ -115,10 +131,11 @@ impl Estimation<'_> {
                     let exchange = self.accurate(accurate, [i, j], far[k], between);
                     if let Some(exchange) = exchange.filter(|e| e.value > 0.0 || e.error > 0.0) {
                         let told = Told {
-                            value: (exchange.value * self.scale) as f32,
+                            others: &[j],
+                            values: &[(exchange.value * self.scale) as f32],
                             estimate: Some((exchange.sight, exchange.error)),
                         };
-                        tell(lane, j, told);
+                        tell(lane, told);
                     }
                 }
             }
@@ -134,8 +151,7 @@ impl Estimation<'_> {
         far: Option<Exchange>,
         between: &Between,
     ) -> Option<Exchange> {
-        let nothing_between = matches!(between, Between::Few(faces) if faces.is_empty());
-        if far.is_some() && nothing_between {
+        if far.is_some() && between.is_clear() {
             return far;
         }
         let between = self.view(between, pair.map(|patch| &self.parts[patch]), FEW)?;

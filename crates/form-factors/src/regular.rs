@@ -5,9 +5,10 @@ use crate::obstacles::{Between, Obstacles};
 use crate::samples::{Lanes, Local, Samples, Units};
 use crate::shade::{Mark, Over, Shade};
 use crate::tiles::Tiling;
-use crate::transfer::{Source, Transfer};
+use crate::transfer::{FarTransfer, Source, Transfer};
 use radiosity_geometry::{Bundle, Mesh, Occluders};
 use radiosity_simd::{Kernel, LANES, Simd, dispatch};
+use std::ops::Range;
 
 /// The regular points of all patches.
 pub(crate) struct Regular {
@@ -49,6 +50,21 @@ impl Regular {
         scratch.tiles = Some([i, j]);
     }
 
+    /// The exchange of patches of the first tile with each of the second, with nothing between them
+    /// and if all are far apart.
+    pub(crate) fn exchange_far(
+        &self,
+        lanes: &Range<usize>,
+        scratch: &mut Scratch,
+    ) -> Option<[Lanes<f32>; LANES]> {
+        let [from, to] = &scratch.local;
+        dispatch(FarTransfer {
+            from: (from, lanes),
+            to,
+            sources: &mut scratch.sources,
+        })
+    }
+
     /// The exchange of a patch of the first tile with each of the second, in units of the total
     /// area.
     pub(crate) fn exchange(
@@ -58,7 +74,8 @@ impl Regular {
         obstacles: &Obstacles,
         scratch: &mut Scratch,
     ) -> Lanes<f32> {
-        let is_clear = matches!(between, Between::Few(few) if few.is_empty());
+        self.localize_points(scratch);
+        let is_clear = between.is_clear();
         if !is_clear {
             self.mark(lane, between, obstacles, scratch);
         }
@@ -74,6 +91,17 @@ impl Regular {
             blocked: (!is_clear).then_some(blocked),
             sources,
         })
+    }
+
+    /// Tiles far apart do without.
+    fn localize_points(&self, scratch: &mut Scratch) {
+        let Some(tiles) = scratch.tiles else { return };
+        let near = &self.samples[tiles[0]];
+        for (tile, local) in tiles.into_iter().zip(&mut scratch.local) {
+            if local.points.is_empty() {
+                dispatch(LocalizePoints(&self.samples[tile], near, local));
+            }
+        }
     }
 
     /// Marks the segments that are blocked.
@@ -135,7 +163,7 @@ fn blocked(
     occluders.blocked_of(&bundle, wanted)
 }
 
-/// Samples, relative to others.
+/// All of samples but their points, relative to others.
 struct Localize<'a>(&'a Samples, &'a Samples, &'a mut Local);
 
 impl Kernel for Localize<'_> {
@@ -145,5 +173,18 @@ impl Kernel for Localize<'_> {
     fn run<S: Simd>(self, simd: S) {
         let Localize(samples, near, local) = self;
         samples.localize(simd, near, local);
+    }
+}
+
+/// The points of samples, relative to others.
+struct LocalizePoints<'a>(&'a Samples, &'a Samples, &'a mut Local);
+
+impl Kernel for LocalizePoints<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let LocalizePoints(samples, near, local) = self;
+        samples.localize_points(simd, near, local);
     }
 }

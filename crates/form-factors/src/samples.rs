@@ -124,7 +124,7 @@ impl Samples {
         DVec3::from_array(self.normal.map(|axis| axis[lane]))
     }
 
-    /// Rounds the points relative to those of a tile.
+    /// Rounds all but the points relative to a tile.
     #[inline(always)]
     pub(crate) fn localize<S: Simd>(&self, simd: S, near: &Samples, local: &mut Local) {
         let center = near.center;
@@ -140,19 +140,24 @@ impl Samples {
         }
         local.radius = self.radius;
         local.centroid = relative(simd, &self.centroid, center);
-        for (points, local) in [
-            (&self.points, &mut local.points),
-            (&self.stand_ins, &mut local.stand_ins),
-        ] {
-            local.clear();
-            for Point { position, area } in points {
-                let position = relative(simd, position, center);
-                local.push(Point {
-                    position,
-                    area: *area,
-                });
-            }
-        }
+        local.points.clear();
+        rounded(simd, &self.stand_ins, center, &mut local.stand_ins);
+    }
+
+    /// Rounds the points relative to a tile.
+    #[inline(always)]
+    pub(crate) fn localize_points<S: Simd>(&self, simd: S, near: &Samples, local: &mut Local) {
+        rounded(simd, &self.points, near.center, &mut local.points);
+    }
+}
+
+/// Rounds points relative to a position.
+#[inline(always)]
+fn rounded<S: Simd>(simd: S, points: &[Point<f64>], center: DVec3, local: &mut Vec<Point<f32>>) {
+    local.clear();
+    for &Point { ref position, area } in points {
+        let position = relative(simd, position, center);
+        local.push(Point { position, area });
     }
 }
 

@@ -1,7 +1,8 @@
 //! The kernel of the form factor, summed over the points of a patch and of eight others.
 
 use crate::samples::{Lanes, Local, Point};
-use radiosity_simd::{Float, Kernel, Simd};
+use radiosity_simd::{Float, Kernel, LANES, Simd};
+use std::ops::Range;
 
 /// The sum over all pairs of points of a patch and each of eight others: their exchange, in units
 /// of the total area.
@@ -14,6 +15,14 @@ pub(crate) struct Transfer<'a> {
     pub(crate) to: &'a Local,
     /// By point of `to` and point of `from`: one bit per lane. Nothing if nothing is blocked.
     pub(crate) blocked: Option<&'a [u8]>,
+    pub(crate) sources: &'a mut Vec<Source>,
+}
+
+/// The same of several patches of a tile, by their lanes, with nothing in the way; nothing unless all are far
+/// from the others.
+pub(crate) struct FarTransfer<'a> {
+    pub(crate) from: (&'a Local, &'a Range<usize>),
+    pub(crate) to: &'a Local,
     pub(crate) sources: &'a mut Vec<Source>,
 }
 
@@ -48,10 +57,7 @@ impl Kernel for Transfer<'_> {
             true => (&from.stand_ins, &self.to.stand_ins),
             false => (&from.points, &self.to.points),
         };
-        self.sources.clear();
-        for point in points {
-            self.sources.push(source(simd, (point, lane), self.to));
-        }
+        find_sources(simd, (points, lane), self.to, self.sources);
         let pairs = Pairs {
             plane: Plane::of(from, lane),
             sources: self.sources,
@@ -65,6 +71,31 @@ impl Kernel for Transfer<'_> {
             (true, false) => pairs.sum::<S, true, false>(simd),
         };
         sum.lanes()
+    }
+}
+
+impl Kernel for FarTransfer<'_> {
+    type Output = Option<[Lanes<f32>; LANES]>;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Option<[Lanes<f32>; LANES]> {
+        let (from, lanes) = self.from;
+        let mut values = [[0.0; LANES]; LANES];
+        for lane in lanes.clone() {
+            let apart = Apart::of(simd, (from, lane), self.to);
+            if !(apart.are_far && apart.never_touch) {
+                return None;
+            }
+            find_sources(simd, (&from.stand_ins, lane), self.to, self.sources);
+            let pairs = Pairs {
+                plane: Plane::of(from, lane),
+                sources: self.sources,
+                targets: &self.to.stand_ins,
+                blocked: &[],
+            };
+            values[lane] = pairs.sum::<S, false, true>(simd).lanes();
+        }
+        Some(values)
     }
 }
 
@@ -136,6 +167,19 @@ impl Apart {
             never_touch: (touching * touching).less(squared) == !0,
             are_far: can_stand_in && far == !0,
         }
+    }
+}
+
+#[inline(always)]
+fn find_sources<S: Simd>(
+    simd: S,
+    (points, lane): (&[Point<f32>], usize),
+    to: &Local,
+    sources: &mut Vec<Source>,
+) {
+    sources.clear();
+    for point in points {
+        sources.push(source(simd, (point, lane), to));
     }
 }
 
