@@ -88,15 +88,13 @@ impl Ahead {
         &self,
         simd: S,
         from: &Points<S::F64>,
-        direction: [S::F64; 3],
+        direction: [S::F32; 3],
     ) -> Met {
         let from = [
             simd.narrow(from.x - simd.splat_f64(self.centroid.x)),
             simd.narrow(from.y - simd.splat_f64(self.centroid.y)),
             simd.narrow(from.z - simd.splat_f64(self.centroid.z)),
         ];
-        let [x, y, z] = direction;
-        let direction = [simd.narrow(x), simd.narrow(y), simd.narrow(z)];
         let (zero, outside) = (simd.splat_f32(0.0), simd.splat_f32(-self.margin));
         let nowhere = simd.splat_f32(f32::INFINITY);
         let (mut nearest, mut nearest_back) = (nowhere, nowhere);
@@ -192,16 +190,16 @@ mod tests {
             let u = simd.f64(&coordinates);
             let from = points(simd, &Target::new(patch), u, u * u);
             let starts = from.lanes();
-            let mut directions = [[0.0; LANES]; 3];
+            let mut directions = [[0.0f32; LANES]; 3];
             for (lane, to) in to.iter().enumerate() {
                 let start = DVec3::from_array(starts.map(|axis| axis[lane]));
                 let direction = (to - start).normalize().to_array();
                 for axis in 0..3 {
-                    directions[axis][lane] = direction[axis];
+                    directions[axis][lane] = direction[axis] as f32;
                 }
             }
             let [x, y, z] = &directions;
-            ahead.meet(simd, &from, [simd.f64(x), simd.f64(y), simd.f64(z)])
+            ahead.meet(simd, &from, [simd.f32(x), simd.f32(y), simd.f32(z)])
         }
     }
 

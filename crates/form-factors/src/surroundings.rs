@@ -11,7 +11,7 @@ use crate::target::{Points, Target, points};
 use crate::visible::{Shifts, coordinate, ratio, shifts};
 use radiosity_geometry::{DVec3, FaceId, Mesh, Patch, Ray};
 use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
-use std::f64::consts::FRAC_PI_4;
+use std::f32::consts::FRAC_PI_4;
 
 /// How closely one looks.
 #[derive(Clone, Copy)]
@@ -95,11 +95,11 @@ struct Look<'a> {
 }
 
 /// Rays, one per lane.
-struct Rays<F> {
+struct Rays<S: Simd> {
     /// Coordinates on the patch, from 0 to 1.
-    on_patch: [F; 2],
-    from: Points<F>,
-    direction: [F; 3],
+    on_patch: [S::F64; 2],
+    from: Points<S::F64>,
+    direction: [S::F32; 3],
 }
 
 impl Kernel for Look<'_> {
@@ -122,8 +122,9 @@ impl Kernel for Look<'_> {
             all = all + weight;
             backs = backs + weight.select(met.backs, zero);
             background = background + weight.select(met.nothing, zero);
+            let [u, v] = rays.on_patch;
             starts.push(Starts {
-                on_patch: rays.on_patch.map(Float::lanes),
+                on_patch: [u.lanes(), v.lanes()],
                 weights: weight.lanes(),
                 backs: met.backs,
             });
@@ -145,7 +146,7 @@ fn rays<S: Simd>(
     (patch, target): (&Patch, &Target),
     k: usize,
     shifts: &Shifts,
-) -> Rays<S::F64> {
+) -> Rays<S> {
     let (u, v) = (
         coordinate(simd, k, 0, shifts),
         coordinate(simd, k, 1, shifts),
@@ -156,14 +157,14 @@ fn rays<S: Simd>(
         coordinate(simd, k, 3, shifts),
     );
     let [x, y] = on_disk(simd, a, b);
-    let one = simd.splat_f64(1.0);
-    let z = (one - x * x - y * y).max(simd.splat_f64(0.0)).sqrt();
+    let one = simd.splat_f32(1.0);
+    let z = (one - x * x - y * y).max(simd.splat_f32(0.0)).sqrt();
     let (tangent, bitangent) = patch.normal.any_orthonormal_pair();
     let mut direction = [x, y, z];
     for (axis, direction) in direction.iter_mut().enumerate() {
-        *direction = x * simd.splat_f64(tangent[axis])
-            + y * simd.splat_f64(bitangent[axis])
-            + z * simd.splat_f64(patch.normal[axis]);
+        *direction = x * simd.splat_f32(tangent[axis] as f32)
+            + y * simd.splat_f32(bitangent[axis] as f32)
+            + z * simd.splat_f32(patch.normal[axis] as f32);
     }
     Rays {
         on_patch: [u, v],
@@ -175,12 +176,12 @@ fn rays<S: Simd>(
 /// The unit square onto the unit disk, by Shirley and Chiu's map ("A Low Distortion Map Between
 /// Disk and Square", 1997).
 #[inline(always)]
-fn on_disk<S: Simd>(simd: S, a: S::F64, b: S::F64) -> [S::F64; 2] {
+fn on_disk<S: Simd>(simd: S, a: S::F64, b: S::F64) -> [S::F32; 2] {
     let one = simd.splat_f64(1.0);
-    let (a, b) = (a + a - one, b + b - one);
+    let (a, b) = (simd.narrow(a + a - one), simd.narrow(b + b - one));
     let (of_a, of_b) = (a * a, b * b);
     let (long, short) = (of_a.if_less(of_b, b, a), of_a.if_less(of_b, a, b));
-    let [sin, cos] = sin_cos(simd, simd.splat_f64(FRAC_PI_4) * (short / long));
+    let [sin, cos] = sin_cos(simd, simd.splat_f32(FRAC_PI_4) * (short / long));
     let (along, across) = (long * cos, long * sin);
     [
         of_a.if_less(of_b, across, along),
@@ -188,21 +189,21 @@ fn on_disk<S: Simd>(simd: S, a: S::F64, b: S::F64) -> [S::F64; 2] {
     ]
 }
 
-/// Sine and cosine of angles up to an eighth of a turn, to 3e-8: by Taylor's series.
+/// Sine and cosine of angles up to an eighth of a turn, to single precision: by Taylor's series.
 #[inline(always)]
-fn sin_cos<S: Simd>(simd: S, x: S::F64) -> [S::F64; 2] {
-    let (one, square) = (simd.splat_f64(1.0), x * x);
+fn sin_cos<S: Simd>(simd: S, x: S::F32) -> [S::F32; 2] {
+    let (one, square) = (simd.splat_f32(1.0), x * x);
     let (mut sin, mut cos) = (one, one);
     for k in [8.0, 6.0, 4.0, 2.0] {
-        sin = one - square * sin * simd.splat_f64(1.0 / (k * (k + 1.0)));
-        cos = one - square * cos * simd.splat_f64(1.0 / (k * (k - 1.0)));
+        sin = one - square * sin * simd.splat_f32(1.0 / (k * (k + 1.0)));
+        cos = one - square * cos * simd.splat_f32(1.0 / (k * (k - 1.0)));
     }
     [x * sin, cos]
 }
 
 /// What rays meet first of all faces but one.
 #[inline(always)]
-fn trace<F: Float<f64>>(obstacles: &Obstacles, except: FaceId, rays: &Rays<F>) -> Met {
+fn trace<S: Simd>(obstacles: &Obstacles, except: FaceId, rays: &Rays<S>) -> Met {
     let from = rays.from.lanes();
     let [x, y, z] = &rays.direction;
     let along = [x.lanes(), y.lanes(), z.lanes()];
@@ -211,8 +212,9 @@ fn trace<F: Float<f64>>(obstacles: &Obstacles, except: FaceId, rays: &Rays<F>) -
         nothing: 0,
     };
     for lane in 0..LANES {
-        let at = |lanes: &[[f64; LANES]; 3]| DVec3::from_array(lanes.map(|axis| axis[lane]));
-        let ray = Ray::new(at(&from), at(&along));
+        let origin = DVec3::from_array(from.map(|axis| axis[lane]));
+        let direction = DVec3::from_array(along.map(|axis| f64::from(axis[lane])));
+        let ray = Ray::new(origin, direction);
         let hit = obstacles
             .occluders
             .closest_hit(&ray, 0.0, f64::INFINITY, Some(except));
