@@ -76,7 +76,7 @@ pub enum Estimator {
     /// by 21.8 % with 3 x 3 points).
     ///
     /// Where patches far apart see all of each other, four points with the same moments stand for all
-    /// of a patch: factors differ by less than 4e-7.
+    /// of a patch: factors differ by less than 1e-6.
     Regular {
         /// Points along each edge of a patch.
         points: u32,

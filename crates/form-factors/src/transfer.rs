@@ -39,9 +39,9 @@ pub(crate) struct Source {
 const NEAREST: f32 = 1e-6;
 /// Points are farther apart than [`NEAREST`] if centroids are by more than that and so many radii.
 const TOUCHING: f32 = 2.1;
-/// Few points stand for all beyond so many radii: factors by either differ by 3.2e-7 at most there
+/// Few points stand for all beyond so many radii: factors by either differ by less than 1e-6 there
 /// (`tests/few_points.rs` says why).
-const NEAR: f32 = 12.0;
+const NEAR: f32 = 10.0;
 /// Squared: as good as infinitely far, but two such squares still have a product.
 const INFINITE: f32 = 1e18;
 

@@ -9,12 +9,12 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
 /// How many radii of their points patches are apart where few begin to stand for all.
-const NEAR: f64 = 12.0;
+const NEAR: f64 = 10.0;
 /// The largest difference is that of squares that face each other squarely, with three points along
 /// their edges: of four coordinates, the fourth moment of all points is larger by `2/729` edge^4 than
-/// that of few, and the fourth derivative of the kernel is `72 / d^4` times the kernel. More points
-/// have larger radii.
-const LARGEST: f64 = 3.2e-7;
+/// that of few, and the fourth derivative of the kernel is `72 / d^4` times the kernel. Higher ones
+/// take away a tenth. More points have larger radii.
+const LARGEST: f64 = 9.6e-7;
 
 /// The largest difference of both factors between two shapes.
 fn difference(shapes: [Shape; 2], points: u32) -> f64 {
@@ -79,7 +79,7 @@ fn few_points_make_what_all_do() {
             let near = 1.001 * NEAR * radius * direction;
             let squares = [DVec3::ZERO, near].map(|at| square(&mut rng, at, near - at));
             worst = worst.max(difference(squares, points));
-            let far = rng.random_range(6.0..16.0) * direction;
+            let far = rng.random_range(5.0..16.0) * direction;
             let shapes = [DVec3::ZERO, far].map(|at| shape(&mut rng, at, far - at));
             worst = worst.max(difference(shapes, points));
         }
@@ -97,5 +97,5 @@ fn the_largest_difference_is_reached() {
         around(at, DVec3::Y, DVec3::X),
     ];
     let found = difference(squares, 3);
-    assert!(found > 0.9 * LARGEST && found < LARGEST, "{found:.2e}");
+    assert!(found > 0.85 * LARGEST && found < LARGEST, "{found:.2e}");
 }
