@@ -37,7 +37,7 @@ use triangle::{Solve, Triangle};
 pub type Triple<T> = [T; 3];
 
 /// Is told a row, its sums, and its values, which it may change.
-pub type Update<'a> = dyn FnMut(usize, &[Triple<f64>], &mut [Triple<f32>]) + Send + 'a;
+pub type Update<'a> = dyn FnMut(usize, &[Triple<f64>], &mut [Triple<f32>]) + 'a;
 
 /// A thread for fewer rows than this is more trouble than help.
 const WORTH_A_THREAD: usize = 1024;

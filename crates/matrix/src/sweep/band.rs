@@ -23,20 +23,21 @@ pub(super) struct Band {
 /// Three vectors on a band.
 pub(super) struct OfBand {
     pub(super) x: Triple<[Piece<f32>; PIECES]>,
-    /// The sums below the diagonal, and what the last blocks add to them.
+    /// The sums below the diagonal, but for what is recent.
     pub(super) below: Triple<[Piece<f64>; PIECES]>,
+    /// What the last few blocks add to them.
     pub(super) recent: Triple<[Piece<f32>; PIECES]>,
 }
 
 /// The rows of a block, left of the first of them.
 #[derive(Clone, Copy)]
 pub(super) struct Block<'a> {
-    /// Where there are fewer rows, the last one again; its values are zero then.
+    /// Where there are fewer rows, the last one again: the values that it is multiplied by are zero
+    /// then, and its products are not looked at.
     rows: [&'a [Piece<f32>]; BLOCK],
 }
 
 /// The rows of a block in a band.
-#[derive(Clone)]
 pub(super) struct Stretch<'a> {
     rows: &'a [&'a [Piece<f32>]; BLOCK],
     pub(super) pieces: Range<usize>,
@@ -98,21 +99,6 @@ impl<'a> Stretch<'a> {
             *row = &whole[self.pieces.clone()][..pieces];
         }
         rows
-    }
-
-    /// The same, as far as those of another stretch; where they are not as long, the other's.
-    #[inline(always)]
-    pub(super) fn rows_or<const COUNT: usize>(
-        &self,
-        other: &Stretch<'a>,
-        first: usize,
-    ) -> [&'a [Piece<f32>]; COUNT] {
-        let pieces = other.pieces.len();
-        if self.pieces.len() < pieces {
-            other.rows(first, pieces)
-        } else {
-            self.rows(first, pieces)
-        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::band::{Block, OfRows, Stretch, blocks_of, is_dark};
 use super::step::Step;
-use super::team::{Claim, From, Team};
+use super::team::{Claim, End, Team};
 
 /// After so many blocks, sums in single precision become part of those in double precision.
 const SETTLING: usize = 4;
@@ -39,9 +39,9 @@ impl<'a, 't> Member<'a, 't> {
 
     /// Takes bands of the current step until there are no more; gives its number.
     pub(super) fn take_bands(&mut self) -> u64 {
-        let (number, mut bands) = self.take_run(self.index, From::Start);
+        let (number, mut bands) = self.take_run(self.index, End::Front);
         for other in (self.index + 1..self.team.size()).chain(0..self.index) {
-            bands += self.take_run(other, From::End).1;
+            bands += self.take_run(other, End::Back).1;
         }
         if bands > 0 {
             self.team.count(bands);
@@ -50,10 +50,10 @@ impl<'a, 't> Member<'a, 't> {
     }
 
     /// Takes what is left of a run; gives the number of the step, and how many bands it took.
-    fn take_run(&mut self, owner: usize, from: From) -> (u64, usize) {
+    fn take_run(&mut self, owner: usize, end: End) -> (u64, usize) {
         let mut bands = 0;
         loop {
-            let (number, claim) = self.team.claim(owner, from);
+            let (number, claim) = self.team.claim(owner, end);
             let Some(claim) = claim else {
                 return (number, bands);
             };
@@ -86,10 +86,9 @@ impl<'a, 't> Member<'a, 't> {
         let (team, band) = (self.team, claim.band);
         let last = self.last.as_ref().map(|last| last.stretch(band));
         let next = lit(team, &self.next, band);
-        let ahead = if band + 1 < claim.run.end {
-            lit(team, &self.next, band + 1)
-        } else {
-            lit(team, &self.after_next, claim.run.start)
+        let ahead = match claim.following {
+            Some(band) => lit(team, &self.next, band),
+            None => lit(team, &self.after_next, claim.first),
         };
         if next.is_none() {
             self.products.fill(OfRows::default());

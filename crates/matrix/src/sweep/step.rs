@@ -6,6 +6,9 @@ use radiosity_simd::{Float, Kernel, LANES, Simd, WideFloat};
 
 /// Rows that are taken together: their sums, or their factors, fit into the registers.
 const QUAD: usize = 4;
+/// Of what is ahead, so many rows of a quad are fetched while one is added, the others while one is
+/// multiplied.
+const HALF: usize = QUAD / 2;
 
 /// A step on one band: adds the last block, and multiplies by the next one.
 pub(super) struct Step<'a> {
@@ -31,11 +34,11 @@ impl Kernel for Step<'_> {
                 // The first triple's numbers come from far, and are still at hand for the others.
                 let mut of_triples = triples.iter_mut().zip(*values);
                 if let Some((triple, values)) = of_triples.next() {
-                    let ahead = self.ahead.as_ref().unwrap_or(rows);
-                    add::<S, true>(simd, rows, quad, ahead, values, &mut triple.recent);
+                    let ahead = fetched(&self.ahead, quad * QUAD);
+                    add(simd, rows, quad, ahead, values, &mut triple.recent);
                 }
                 for (triple, values) in of_triples {
-                    add::<S, false>(simd, rows, quad, rows, values, &mut triple.recent);
+                    add(simd, rows, quad, NOTHING, values, &mut triple.recent);
                 }
             }
         }
@@ -48,30 +51,51 @@ impl Kernel for Step<'_> {
             for quad in 0..BLOCK / QUAD {
                 let mut of_triples = triples.iter().zip(&mut *products);
                 if let Some((triple, products)) = of_triples.next() {
-                    let ahead = self.ahead.as_ref().unwrap_or(&rows);
-                    multiply::<S, true>(simd, &rows, quad, ahead, &triple.x, products);
+                    let ahead = fetched(&self.ahead, quad * QUAD + HALF);
+                    multiply(simd, &rows, quad, ahead, &triple.x, products);
                 }
                 for (triple, products) in of_triples {
-                    multiply::<S, false>(simd, &rows, quad, &rows, &triple.x, products);
+                    multiply(simd, &rows, quad, NOTHING, &triple.x, products);
                 }
             }
         }
     }
 }
 
-/// Adds some rows times their values to the sums. `FETCH` has what is ahead fetched.
+/// Rows that are fetched.
+type Ahead<'a> = [&'a [Piece<f32>]; HALF];
+const NOTHING: Ahead<'_> = [&[]; HALF];
+
+/// Some rows, from one on, of what is ahead.
 #[inline(always)]
-fn add<S: Simd, const FETCH: bool>(
+fn fetched<'a>(ahead: &Option<Stretch<'a>>, first: usize) -> Ahead<'a> {
+    match ahead {
+        Some(ahead) => ahead.rows(first, ahead.pieces.len()),
+        None => NOTHING,
+    }
+}
+
+#[inline(always)]
+fn fetch<S: Simd>(simd: S, ahead: Ahead<'_>, piece: usize) {
+    if piece < ahead[0].len() {
+        for row in ahead {
+            simd.prefetch(&row[piece]);
+        }
+    }
+}
+
+/// Adds some rows times their values to the sums, and has what is ahead fetched.
+#[inline(always)]
+fn add<S: Simd>(
     simd: S,
     rows: &Stretch<'_>,
     quad: usize,
-    ahead: &Stretch<'_>,
+    ahead: Ahead<'_>,
     values: &OfRows<f32>,
     sums: &mut Triple<[Piece<f32>; PIECES]>,
 ) {
     let first = quad * QUAD;
     let count = rows.pieces.len();
-    let fetched = ahead.rows_or::<2>(rows, first);
     let rows = rows.rows::<QUAD>(first, count);
     let mut factors = [[simd.splat_wide(0.0); 3]; QUAD];
     for k in 0..QUAD {
@@ -82,11 +106,7 @@ fn add<S: Simd, const FETCH: bool>(
     let [x, y, z] = sums;
     let (x, y, z) = (&mut x[..count], &mut y[..count], &mut z[..count]);
     for piece in 0..count {
-        if FETCH {
-            for row in fetched {
-                simd.prefetch(&row[piece]);
-            }
-        }
+        fetch(simd, ahead, piece);
         let mut sums = [
             simd.wide(&x[piece]),
             simd.wide(&y[piece]),
@@ -116,28 +136,23 @@ fn settle<S: Simd>(simd: S, triple: &mut OfBand) {
     }
 }
 
-/// The products of some rows with the values of a band. `FETCH` as in [`add`].
+/// The products of some rows with the values of a band; has what is ahead fetched.
 #[inline(always)]
-fn multiply<S: Simd, const FETCH: bool>(
+fn multiply<S: Simd>(
     simd: S,
     rows: &Stretch<'_>,
     quad: usize,
-    ahead: &Stretch<'_>,
+    ahead: Ahead<'_>,
     [x, y, z]: &Triple<[Piece<f32>; PIECES]>,
     products: &mut OfRows<f32>,
 ) {
     let first = quad * QUAD;
     let count = rows.pieces.len();
-    let fetched = ahead.rows_or::<QUAD>(rows, first);
     let rows = rows.rows::<QUAD>(first, count);
     let [x, y, z] = [&x[..count], &y[..count], &z[..count]];
     let mut sums = [[simd.splat_wide(0.0); 3]; QUAD];
     for piece in 0..count {
-        if FETCH {
-            for row in fetched {
-                simd.prefetch(&row[piece]);
-            }
-        }
+        fetch(simd, ahead, piece);
         let x = [
             simd.wide(&x[piece]),
             simd.wide(&y[piece]),

@@ -14,7 +14,6 @@ use super::shared::Shared;
 use crate::SymmetricMatrix;
 use radiosity_simd::InstructionSet;
 use std::hint::spin_loop;
-use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard};
 
@@ -57,9 +56,9 @@ struct Apart<T>(T);
 
 /// The end of a run that bands are taken from. Claims count those taken from each, and steps.
 #[derive(Clone, Copy)]
-pub(super) enum From {
-    Start = 1,
-    End = 1 << 20,
+pub(super) enum End {
+    Front = 1,
+    Back = 1 << 20,
 }
 
 const STEP: u64 = 1 << 40;
@@ -70,8 +69,10 @@ const PATIENCE: u32 = 1024;
 pub(super) struct Claim {
     pub(super) block: usize,
     pub(super) band: usize,
-    /// The run that it is of.
-    pub(super) run: Range<usize>,
+    /// The band to claim after it, if nobody else does first.
+    pub(super) following: Option<usize>,
+    /// Where its run begins.
+    pub(super) first: usize,
 }
 
 impl<'a> Team<'a> {
@@ -122,12 +123,17 @@ impl<'a> Team<'a> {
 
     /// Leads the step in which a block is the next one.
     pub(super) fn lead(&self, block: usize, leader: &mut Member<'a, '_>) {
+        self.open(block);
+        leader.take_bands();
+        self.wait_for(self.bands_of(block));
+    }
+
+    /// Lets bands be claimed for the step in which a block is the next one.
+    fn open(&self, block: usize) {
         self.done.0.store(0, Ordering::Relaxed);
         for claims in &self.claims {
             claims.0.store((block as u64 + 1) * STEP, Ordering::Release);
         }
-        leader.take_bands();
-        self.wait_for(self.bands_of(block));
     }
 
     /// Waits until so many bands of this step are done.
@@ -151,22 +157,25 @@ impl<'a> Team<'a> {
     }
 
     /// Claims a band of a member, in the step whose number comes too.
-    pub(super) fn claim(&self, owner: usize, from: From) -> (u64, Option<Claim>) {
-        let claims = self.claims[owner]
-            .0
-            .fetch_add(from as u64, Ordering::AcqRel);
+    pub(super) fn claim(&self, owner: usize, end: End) -> (u64, Option<Claim>) {
+        let claims = self.claims[owner].0.fetch_add(end as u64, Ordering::AcqRel);
         let number = claims / STEP;
         let claim = |block: u64| {
             let block = block as usize;
             let bound = |member: usize| member * self.bands_of(block) / self.size();
             let run = bound(owner)..bound(owner + 1);
-            let (before, after) = (claims % From::End as u64, claims % STEP / From::End as u64);
-            let left = run.start + before as usize..run.end.saturating_sub(after as usize);
-            let band = match from {
-                From::Start => left.clone().next(),
-                From::End => left.clone().next_back(),
+            let (before, after) = (claims % End::Back as u64, claims % STEP / End::Back as u64);
+            let mut left = run.start + before as usize..run.end.saturating_sub(after as usize);
+            let mut next = || match end {
+                End::Front => left.next(),
+                End::Back => left.next_back(),
             };
-            band.map(|band| Claim { block, band, run })
+            Some(Claim {
+                block,
+                band: next()?,
+                following: next(),
+                first: run.start,
+            })
         };
         (number, number.checked_sub(1).and_then(claim))
     }
@@ -239,6 +248,44 @@ mod tests {
     use crate::packed_len;
     use std::panic::{AssertUnwindSafe, catch_unwind};
 
+    /// The bands that claims of both ends, in turn, give of a run, and those that follow them.
+    fn claimed(team: &Team<'_>, owner: usize) -> Vec<(usize, Option<usize>)> {
+        let ends = [End::Front, End::Back].into_iter().cycle();
+        let claims = ends.map_while(|end| team.claim(owner, end).1);
+        claims.map(|claim| (claim.band, claim.following)).collect()
+    }
+
+    #[test]
+    fn every_band_is_claimed_once_a_step() {
+        let size = 7 * WIDTH;
+        let matrix = SymmetricMatrix::new(size, vec![0.0; packed_len(size)]).unwrap();
+        let team = Team::new(
+            InstructionSet::current(),
+            &matrix,
+            &vec![[1.0; 3]; size],
+            1,
+            2,
+        );
+        assert!(claimed(&team, 0).is_empty(), "before the first step");
+        for block in [size / BLOCK, 5 * WIDTH / BLOCK] {
+            team.open(block);
+            let bands = team.bands_of(block);
+            let runs = [claimed(&team, 0), claimed(&team, 1)];
+            let first = |run: &[(usize, Option<usize>)]| run[0];
+            assert_eq!(first(&runs[0]), (0, Some(1)));
+            assert_eq!(first(&runs[1]), (bands / 2, Some(bands / 2 + 1)));
+            let mut all: Vec<usize> = runs.concat().into_iter().map(|claim| claim.0).collect();
+            all.sort_unstable();
+            assert_eq!(all, (0..bands).collect::<Vec<usize>>());
+            assert!(claimed(&team, 0).is_empty(), "all are taken");
+        }
+        team.open(size / BLOCK);
+        assert_eq!(team.claim(1, End::Back).1.unwrap().band, 6);
+        let claim = team.claim(1, End::Back).1.unwrap();
+        assert_eq!((claim.band, claim.following), (5, Some(4)));
+        assert_eq!((claim.block, claim.first), (size / BLOCK, 3));
+    }
+
     /// The helper's run has a band that panics whoever takes it.
     #[test]
     fn nobody_waits_for_a_helper_that_has_panicked() {
@@ -252,9 +299,7 @@ mod tests {
         };
         assert!(catch_unwind(AssertUnwindSafe(poison)).is_err());
         let block = size / BLOCK - 1;
-        for claims in &team.claims {
-            claims.0.store((block as u64 + 1) * STEP, Ordering::Release);
-        }
+        team.open(block);
         assert!(catch_unwind(AssertUnwindSafe(|| team.help(1))).is_err());
         let wait = || team.wait_for(team.bands_of(block));
         assert!(catch_unwind(AssertUnwindSafe(wait)).is_err());
