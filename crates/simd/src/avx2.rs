@@ -1,4 +1,4 @@
-//! AVX2: eight floats are one register, eight doubles two.
+//! AVX2: eight floats are one register, eight doubles or sixteen floats two.
 #![allow(
     unsafe_code,
     reason = "intrinsics; see `run` for why their use is sound"

@@ -1,4 +1,5 @@
-//! AVX-512: eight doubles are one register, eight floats half of one; comparisons give masks.
+//! AVX-512: eight doubles or sixteen floats are one register, eight floats half of one; comparisons
+//! give masks.
 #![allow(
     unsafe_code,
     reason = "intrinsics; see `run` for why their use is sound"

@@ -1,4 +1,4 @@
-//! Eight lanes of numbers on the widest registers that the machine has.
+//! Eight lanes of numbers, or sixteen, on the widest registers that the machine has.
 //!
 //! A [`Kernel`] is written once, generic over an instruction set ([`Simd`]); [`dispatch`] runs
 //! it on the best one that the processor has, so a plain release build is the fast one:
@@ -22,8 +22,8 @@
 //! ```
 //!
 //! Every operation rounds as IEEE 754 says, none is fused or approximate, and there are as many
-//! lanes everywhere, eight or [`WIDE`]: all instruction sets give the same bits. The environment variable
-//! `RADIOSITY_SIMD` (`portable`, `avx2`, `avx512`) picks one, to measure or to test.
+//! lanes everywhere, eight or [`WIDE`]: all instruction sets give the same bits. The environment
+//! variable `RADIOSITY_SIMD` (`portable`, `avx2`, `avx512`) picks one, to measure or to test.
 
 mod angle;
 #[cfg(target_arch = "x86_64")]

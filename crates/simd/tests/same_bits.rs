@@ -155,7 +155,17 @@ proptest! {
         let numbers = || std::array::from_fn(|k| std::array::from_fn(|i| numbers[k * WIDE + i]));
         let expected = Wide(numbers()).expected();
         for set in InstructionSet::available() {
-            prop_assert_eq!(&set.run(Wide(numbers())), &expected, "{}", set.name());
+            let found = set.run(Wide(numbers()));
+            let bits = |numbers: &[f32]| -> Vec<u32> {
+                numbers.iter().copied().map(f32::to_bits).collect()
+            };
+            prop_assert_eq!(
+                bits(found.0.as_flattened()),
+                bits(expected.0.as_flattened()),
+                "{}",
+                set.name()
+            );
+            prop_assert_eq!(bits(&found.1), bits(&expected.1), "{}", set.name());
         }
     }
 

@@ -87,7 +87,7 @@ fn runs(patches: usize) -> u32 {
 }
 
 /// Passes over the matrix against the bandwidth of memory. Both are timed in turn, since memory is
-/// not always as fast: the shares are those of the middle round.
+/// not always as fast: the shares are the middle ones of all rounds.
 fn passes(made: &FormFactors) -> Vec<Figure> {
     let patches = made.exchange.size();
     let mapped = &made.exchange;

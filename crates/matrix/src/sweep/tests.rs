@@ -101,32 +101,66 @@ proptest! {
 }
 
 #[test]
-fn bands_and_tiles_join() {
+fn bands_and_blocks_join() {
     for size in [511, 512, 513, 1023, 1024, 1025, 1041, 2063] {
         check(size, 1);
     }
     check(1100, 2);
 }
 
-/// Some blocks and bands are dark, and some of them do not stay so.
+/// Vectors of which some blocks and bands are dark.
+fn partly_lit(size: usize, triples: usize) -> Vec<Triple<f32>> {
+    let mut x = vectors(size, triples);
+    for (k, x) in x.iter_mut().enumerate() {
+        let row = k / triples;
+        if !((600..640).contains(&row) || (1100..1111).contains(&row)) {
+            *x = [0.0; 3];
+        }
+    }
+    x
+}
+
+/// Some do not stay dark.
+fn relax_some(i: usize, sums: &[Triple<f64>], x: &mut [Triple<f32>]) {
+    if (1700..1750).contains(&i) {
+        relax(sums, x);
+    }
+}
+
 #[test]
-fn what_is_dark_is_passed_over() {
+fn dark_blocks_and_bands_have_no_part_in_sums() {
     let size = 2100;
     let matrix = matrix(size);
-    let values = vectors(size, 2);
-    let is_lit = |k: usize| (600..640).contains(&(k / 2)) || (1100..1111).contains(&(k / 2));
-    let lit = |k: usize| if is_lit(k) { values[k] } else { [0.0; 3] };
-    let mut x: Vec<Triple<f32>> = (0..values.len()).map(lit).collect();
+    let mut x = partly_lit(size, 2);
     let mut above = Vec::new();
     let below = matrix.sweep(&mut x, 2, &mut |i, sums, x| {
         above.extend_from_slice(sums);
-        if (1700..1750).contains(&i) {
-            relax(sums, x);
-        }
+        relax_some(i, sums, x);
     });
     let expected = plain(&matrix, &x, 2);
     assert_close(&above, &expected.0);
     assert_close(&below, &expected.1);
+}
+
+/// A number that is none times zero would be none.
+#[test]
+fn what_is_dark_is_passed_over() {
+    let size = 2100;
+    let is_lit = |row: usize| row / 512 == 1;
+    let blocks_are_lit = |row: usize| is_lit(row / 16 * 16);
+    let values = (0..size).flat_map(|i| {
+        // Rows of a block are multiplied by a lit band's values, columns added by a lit block's.
+        let is_read = move |j: usize| blocks_are_lit(i) || is_lit(j) || i / 16 == j / 16;
+        (0..i).map(move |j| if is_read(j) { number(i + j) } else { f32::NAN })
+    });
+    let matrix = SymmetricMatrix::new(size, values.collect::<Vec<f32>>()).unwrap();
+    let mut x: Vec<Triple<f32>> = (0..size)
+        .map(|row| if is_lit(row) { [1.0; 3] } else { [0.0; 3] })
+        .collect();
+    let mut sums = Vec::new();
+    let below = matrix.sweep(&mut x, 1, &mut |_, above, _| sums.extend_from_slice(above));
+    sums.extend(below);
+    assert!(sums.as_flattened().iter().all(|sum| sum.is_finite()));
 }
 
 fn pool(threads: usize) -> rayon::ThreadPool {
@@ -153,6 +187,30 @@ fn neither_threads_nor_instruction_sets_have_a_part_in_the_result() {
     }
     for set in InstructionSet::available() {
         assert!(run(set, 2, 2) == expected, "{}", set.name());
+    }
+}
+
+/// Whoever takes a band, it is dark for all of them, or for none.
+#[test]
+fn nor_have_they_where_some_is_dark() {
+    let size = 4200;
+    let matrix = matrix(size);
+    let run = |set: InstructionSet, members: usize| {
+        let mut x = partly_lit(size, 1);
+        let mut above = Vec::new();
+        let below = pool(members).install(|| {
+            matrix.sweep_on(set, members, &mut x, 1, &mut |i, sums, x| {
+                above.extend_from_slice(sums);
+                relax_some(i, sums, x);
+            })
+        });
+        (x, above, below)
+    };
+    let expected = run(InstructionSet::current(), 1);
+    for set in InstructionSet::available() {
+        for members in [1, 2, 5] {
+            assert!(run(set, members) == expected, "{} {members}", set.name());
+        }
     }
 }
 
