@@ -28,13 +28,13 @@ pub fn angle<S: Simd>(simd: S, y: S::F64, x: S::F64) -> S::F64 {
     let zero = simd.splat_f64(0.0);
     let wide = x.max(-x);
     let (low, high) = (y.min(wide), y.max(wide));
-    let steep = (high * simd.splat_f64(STEEP)).less(low);
-    let rise = (low - high).select(steep, low);
-    let run = (low + high).select(steep, high);
+    let edge = high * simd.splat_f64(STEEP);
+    let rise = edge.if_less(low, low - high, low);
+    let run = edge.if_less(low, low + high, high);
     let small = arctangent(simd, rise / run);
-    let acute = (small + simd.splat_f64(FRAC_PI_4)).select(steep, small);
-    let acute = (simd.splat_f64(FRAC_PI_2) - acute).select(wide.less(y), acute);
-    (simd.splat_f64(PI) - acute).select(x.less(zero), acute)
+    let acute = edge.if_less(low, small + simd.splat_f64(FRAC_PI_4), small);
+    let acute = wide.if_less(y, simd.splat_f64(FRAC_PI_2) - acute, acute);
+    x.if_less(zero, simd.splat_f64(PI) - acute, acute)
 }
 
 #[inline(always)]
