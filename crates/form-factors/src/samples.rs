@@ -2,7 +2,7 @@
 
 use crate::obstacles::Obstacles;
 use crate::points::{Sample, regular};
-use crate::stand_ins::stand_ins;
+use crate::stand_ins::{STAND_INS, stand_ins};
 use crate::tiles::Tile;
 use radiosity_geometry::{Aabb, DVec3, FaceId, Mesh, Patch};
 use radiosity_simd::{Float, LANES, Simd};
@@ -11,14 +11,20 @@ use std::f64::consts::PI;
 /// Numbers of eight patches.
 pub(crate) type Lanes<T> = [T; LANES];
 
+/// Few points stand for all beyond so many radii: factors by either differ by less than 1e-6 there
+/// (`tests/few_points.rs` says why).
+const NEAR: f32 = 10.0;
+
 /// The points of a tile, in units of the scene's extent.
 #[derive(Clone, Debug)]
 pub(crate) struct Samples {
     pub(crate) points: Vec<Point<f64>>,
-    /// Those that stand for them far away; none if a patch has none.
+    /// Those that stand for them far away; of patches without, points without area.
     stand_ins: Vec<Point<f64>>,
     /// From the centroid to the farthest point.
     radius: Lanes<f32>,
+    /// Up to this distance between centroids, none stand for them.
+    near: Lanes<f32>,
     centroid: [Lanes<f64>; 3],
     normal: [Lanes<f64>; 3],
     /// Of the patches' planes.
@@ -34,6 +40,7 @@ pub(crate) struct Local {
     pub(crate) points: Vec<Point<f32>>,
     pub(crate) stand_ins: Vec<Point<f32>>,
     pub(crate) radius: Lanes<f32>,
+    pub(crate) near: Lanes<f32>,
     pub(crate) centroid: [Lanes<f32>; 3],
     pub(crate) normal: [Lanes<f32>; 3],
     pub(crate) offset: Lanes<f32>,
@@ -97,17 +104,29 @@ impl Samples {
             (0..count).map(point).collect::<Vec<Point<f64>>>()
         };
         let all = |patch: &Patch| regular(&patch.polygon, points);
-        let few = |patch: &Patch| stand_ins(&patch.polygon, points).map_or(Vec::new(), Vec::from);
+        let none = |patch: &Patch| Sample {
+            point: patch.centroid,
+            area: 0.0,
+        };
+        let few = |patch: &Patch| {
+            let few = stand_ins(&patch.polygon, points);
+            few.unwrap_or([none(patch); STAND_INS]).to_vec()
+        };
         let radius = |patch: &Patch| {
             let distances = all(patch)
                 .into_iter()
                 .map(|s| s.point.distance(patch.centroid));
             (distances.fold(0.0, f64::max) / units.length) as f32
         };
+        let near = |patch: &Patch| match stand_ins(&patch.polygon, points) {
+            Some(_) => NEAR * radius(patch),
+            None => f32::INFINITY,
+        };
         Samples {
             points: side_by_side(&all),
             stand_ins: side_by_side(&few),
             radius: patches.map(radius),
+            near: patches.map(near),
             centroid: vectors(|lane| patches[lane].centroid / units.length),
             normal: vectors(|lane| patches[lane].normal),
             offset: patches.map(|patch| patch.normal.dot(patch.centroid) / units.length),
@@ -138,7 +157,7 @@ impl Samples {
         for (axis, normal) in local.normal.iter_mut().zip([nx, ny, nz]) {
             *axis = simd.narrow(normal).lanes();
         }
-        local.radius = self.radius;
+        (local.radius, local.near) = (self.radius, self.near);
         local.centroid = relative(simd, &self.centroid, center);
         local.points.clear();
         rounded(simd, &self.stand_ins, center, &mut local.stand_ins);

@@ -39,9 +39,6 @@ pub(crate) struct Source {
 const NEAREST: f32 = 1e-6;
 /// Points are farther apart than [`NEAREST`] if centroids are by more than that and so many radii.
 const TOUCHING: f32 = 2.1;
-/// Few points stand for all beyond so many radii: factors by either differ by less than 1e-6 there
-/// (`tests/few_points.rs` says why).
-const NEAR: f32 = 10.0;
 /// Squared: as good as infinitely far, but two such squares still have a product.
 const INFINITE: f32 = 1e18;
 
@@ -52,25 +49,42 @@ impl Kernel for Transfer<'_> {
     fn run<S: Simd>(self, simd: S) -> Lanes<f32> {
         let (from, lane) = self.from;
         let apart = Apart::of(simd, (from, lane), self.to);
-        let few_do = self.blocked.is_none() && apart.are_far;
-        let (points, targets) = match few_do {
-            true => (&from.stand_ins, &self.to.stand_ins),
-            false => (&from.points, &self.to.points),
+        let blocked = self.blocked.unwrap_or_default();
+        // Whether few points do is a matter of each pair, whichever other pairs are summed with it.
+        let few_do = apart.far & !blocked.iter().fold(0, |some, &lanes| some | lanes);
+        let few = match few_do {
+            0 => simd.splat_f32(0.0),
+            _ => {
+                find_sources(simd, (&from.stand_ins, lane), self.to, self.sources);
+                self.pairs(&self.to.stand_ins, &[])
+                    .sum::<S, false, true>(simd)
+            }
         };
-        find_sources(simd, (points, lane), self.to, self.sources);
-        let pairs = Pairs {
+        if few_do == !0 {
+            return few.lanes();
+        }
+        find_sources(simd, (&from.points, lane), self.to, self.sources);
+        let pairs = self.pairs(&self.to.points, blocked);
+        let all = match (blocked.is_empty(), apart.never_touch) {
+            (true, true) => pairs.sum::<S, false, true>(simd),
+            (true, false) => pairs.sum::<S, false, false>(simd),
+            (false, true) => pairs.sum::<S, true, true>(simd),
+            (false, false) => pairs.sum::<S, true, false>(simd),
+        };
+        few.select(few_do, all).lanes()
+    }
+}
+
+impl Transfer<'_> {
+    /// Of the sources and some of the others' points.
+    fn pairs<'b>(&'b self, targets: &'b [Point<f32>], blocked: &'b [u8]) -> Pairs<'b> {
+        let (from, lane) = self.from;
+        Pairs {
             plane: Plane::of(from, lane),
             sources: self.sources,
             targets,
-            blocked: self.blocked.unwrap_or_default(),
-        };
-        let sum = match (self.blocked.is_some(), apart.never_touch) {
-            (false, true) => pairs.sum::<S, false, true>(simd),
-            (false, false) => pairs.sum::<S, false, false>(simd),
-            (true, true) => pairs.sum::<S, true, true>(simd),
-            (true, false) => pairs.sum::<S, true, false>(simd),
-        };
-        sum.lanes()
+            blocked,
+        }
     }
 }
 
@@ -83,7 +97,7 @@ impl Kernel for FarTransfer<'_> {
         let mut values = [[0.0; LANES]; LANES];
         for lane in lanes.clone() {
             let apart = Apart::of(simd, (from, lane), self.to);
-            if !(apart.are_far && apart.never_touch) {
+            if apart.far != !0 {
                 return None;
             }
             find_sources(simd, (&from.stand_ins, lane), self.to, self.sources);
@@ -137,8 +151,9 @@ fn load<S: Simd>(simd: S, [x, y, z]: &[Lanes<f32>; 3]) -> [S::F32; 3] {
 struct Apart {
     /// No point of one coincides with one of another.
     never_touch: bool,
-    /// Few points can stand for all, and all of them lie on one side of the plane of the other patch.
-    are_far: bool,
+    /// Which are so far that few points can stand for all, and all of them lie on one side of the plane
+    /// of the other patch.
+    far: u8,
 }
 
 impl Apart {
@@ -155,17 +170,17 @@ impl Apart {
         let (radius_to, radius_from) = (simd.f32(&to.radius), simd.splat_f32(from.radius[lane]));
         let larger = radius_to.max(radius_from);
         let touching = simd.splat_f32(TOUCHING) * larger + simd.splat_f32(NEAREST);
-        let near = simd.splat_f32(NEAR) * larger;
+        let near = simd.f32(&to.near).max(simd.splat_f32(from.near[lane]));
+        let near = near + simd.splat_f32(NEAREST);
         let height_to = times(simd, [x, y, z], at(&from.normal, lane));
         let [nx, ny, nz] = load(simd, &to.normal);
         let height_from = nx * x + ny * y + nz * z;
         let mut far = (near * near).less(squared);
         far &= radius_to.less(height_to.max(-height_to));
         far &= radius_from.less(height_from.max(-height_from));
-        let can_stand_in = !from.stand_ins.is_empty() && !to.stand_ins.is_empty();
         Apart {
             never_touch: (touching * touching).less(squared) == !0,
-            are_far: can_stand_in && far == !0,
+            far,
         }
     }
 }
