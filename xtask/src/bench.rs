@@ -148,6 +148,12 @@ fn best_seconds(runs: u32, mut run: impl FnMut()) -> f64 {
     (0..runs).map(once).fold(f64::INFINITY, f64::min)
 }
 
+/// The middle one; of two the larger.
+fn median(mut numbers: Vec<f64>) -> f64 {
+    numbers.sort_by(f64::total_cmp);
+    numbers[numbers.len() / 2]
+}
+
 /// Prints figures, for people or as JSON.
 fn show(figures: &[Figure], json: bool) {
     let show = if json { Figure::print } else { Figure::say };

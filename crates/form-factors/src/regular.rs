@@ -88,7 +88,7 @@ impl Regular {
         dispatch(Transfer {
             from: (from, lane),
             to,
-            blocked: (!is_clear).then_some(blocked),
+            blocked: if is_clear { &[] } else { blocked },
             sources,
         })
     }

@@ -87,46 +87,43 @@ impl Samples {
             let index = tile.patches.get(lane).unwrap_or(&tile.patches[0]);
             &mesh.patches[*index]
         });
-        let side_by_side = |of_lane: &dyn Fn(&Patch) -> Vec<Sample>| {
-            let samples = patches.map(of_lane);
-            let point = |k: usize| {
-                let sample = |lane: usize| samples[lane][k];
-                let area = |lane: usize| match tile.patches.get(lane) {
-                    Some(_) => (sample(lane).area / units.area) as f32,
-                    None => 0.0,
-                };
-                Point {
-                    position: vectors(|lane| sample(lane).point / units.length),
-                    area: std::array::from_fn(area),
-                }
+        let all = patches.map(|patch| regular(&patch.polygon, points));
+        let few = patches.map(|patch| stand_ins(&patch.polygon, points));
+        let point = |sample_of: &dyn Fn(usize) -> Sample| {
+            let area = |lane: usize| match tile.patches.get(lane) {
+                Some(_) => (sample_of(lane).area / units.area) as f32,
+                None => 0.0,
             };
-            let count = samples.iter().map(Vec::len).min().unwrap_or(0);
-            (0..count).map(point).collect::<Vec<Point<f64>>>()
+            Point {
+                position: vectors(|lane| sample_of(lane).point / units.length),
+                area: std::array::from_fn(area),
+            }
         };
-        let all = |patch: &Patch| regular(&patch.polygon, points);
-        let none = |patch: &Patch| Sample {
-            point: patch.centroid,
-            area: 0.0,
+        let stand_in = |lane: usize, k: usize| match few[lane] {
+            Some(few) => few[k],
+            None => Sample {
+                point: patches[lane].centroid,
+                area: 0.0,
+            },
         };
-        let few = |patch: &Patch| {
-            let few = stand_ins(&patch.polygon, points);
-            few.unwrap_or([none(patch); STAND_INS]).to_vec()
-        };
-        let radius = |patch: &Patch| {
-            let distances = all(patch)
-                .into_iter()
-                .map(|s| s.point.distance(patch.centroid));
+        let radius: Lanes<f32> = std::array::from_fn(|lane| {
+            let centroid = patches[lane].centroid;
+            let distances = all[lane].iter().map(|s| s.point.distance(centroid));
             (distances.fold(0.0, f64::max) / units.length) as f32
-        };
-        let near = |patch: &Patch| match stand_ins(&patch.polygon, points) {
-            Some(_) => NEAR * radius(patch),
+        });
+        let near = |lane: usize| match few[lane] {
+            Some(_) => NEAR * radius[lane],
             None => f32::INFINITY,
         };
         Samples {
-            points: side_by_side(&all),
-            stand_ins: side_by_side(&few),
-            radius: patches.map(radius),
-            near: patches.map(near),
+            points: (0..all[0].len())
+                .map(|k| point(&|lane| all[lane][k]))
+                .collect(),
+            stand_ins: (0..STAND_INS)
+                .map(|k| point(&|lane| stand_in(lane, k)))
+                .collect(),
+            radius,
+            near: std::array::from_fn(near),
             centroid: vectors(|lane| patches[lane].centroid / units.length),
             normal: vectors(|lane| patches[lane].normal),
             offset: patches.map(|patch| patch.normal.dot(patch.centroid) / units.length),

@@ -14,7 +14,7 @@ pub(crate) struct Transfer<'a> {
     pub(crate) from: (&'a Local, usize),
     pub(crate) to: &'a Local,
     /// By point of `to` and point of `from`: one bit per lane. Nothing if nothing is blocked.
-    pub(crate) blocked: Option<&'a [u8]>,
+    pub(crate) blocked: &'a [u8],
     pub(crate) sources: &'a mut Vec<Source>,
 }
 
@@ -49,7 +49,7 @@ impl Kernel for Transfer<'_> {
     fn run<S: Simd>(self, simd: S) -> Lanes<f32> {
         let (from, lane) = self.from;
         let apart = Apart::of(simd, (from, lane), self.to);
-        let blocked = self.blocked.unwrap_or_default();
+        let blocked = self.blocked;
         // Whether few points do is a matter of each pair, whichever other pairs are summed with it.
         let few_do = apart.far & !blocked.iter().fold(0, |some, &lanes| some | lanes);
         let few = match few_do {

@@ -4,7 +4,7 @@ mod plain;
 
 use plain::Plain;
 use radiosity_form_factors::{Estimator, estimate};
-use radiosity_geometry::{DVec3, Divisions, Shape, Surface, subdivide};
+use radiosity_geometry::{DVec3, Divisions, PolygonMesh, Shape, Surface, subdivide};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -86,6 +86,45 @@ fn few_points_make_what_all_do() {
     }
     println!("by {worst:.2e} at most");
     assert!(worst < LARGEST, "{worst:.2e}");
+}
+
+/// Tiles of small faces hold patches that few points stand for beside some that they do not, and some
+/// that are near beside some that are far.
+#[test]
+fn patches_of_a_tile_go_each_its_own_way() {
+    let mut rng = Pcg64Mcg::seed_from_u64(7);
+    let groups = [0.0, 7.0].map(|height| {
+        let mut group = PolygonMesh::default();
+        for k in 0..15 {
+            let at = height * DVec3::Z + vector(&mut rng) * DVec3::new(3.0, 3.0, 1.0);
+            let (a, b) = (vector(&mut rng), vector(&mut rng));
+            let (a, b) = facing(a, b, (3.5 - height) * DVec3::Z);
+            let corners = match k % 3 {
+                0 => vec![at, at + a, at + b],
+                1 => vec![at, at + a, at + a + b, at + b],
+                _ => vec![at, at + a, at + 0.5 * a + b, at + b],
+            };
+            let first = group.positions.len() as u32;
+            let last = first + corners.len() as u32;
+            group.faces.push((first..last).collect());
+            group.positions.extend(corners);
+        }
+        Surface {
+            shape: Shape::Mesh(group),
+            divisions: None,
+        }
+    });
+    let mesh = subdivide(&groups, Divisions::uniform(1)).unwrap();
+    let found = estimate(&mesh, Estimator::Regular { points: 3 }, &|_| ());
+    let plain = Plain::new(&mesh, 3);
+    let pairs = (0..30).flat_map(|i| (0..i).map(move |j| (i, j)));
+    let errors = pairs.map(|(i, j)| (found.factor(i, j) - plain.factor(i, j)).abs());
+    let errors: Vec<f64> = errors.collect();
+    let worst = errors.iter().copied().fold(0.0, f64::max);
+    println!("tiles: {worst:.2e} at most");
+    assert!(worst < LARGEST, "{worst:.2e}");
+    let few = errors.iter().filter(|&&error| error > 1e-9).count();
+    assert!(few > 10, "{few} differ");
 }
 
 /// What is derived above, where it is reached: were all points summed, there would be no difference.

@@ -1,7 +1,7 @@
 //! How fast form factors are, and what the accurate ones cost, side by side with the course's.
 
 use super::baseline::Baseline;
-use super::{Figure, Target, best_seconds, machine};
+use super::{Figure, Target, best_seconds, machine, median};
 use radiosity::form_factors::{Estimator, estimate};
 use radiosity::geometry::{Divisions, Mesh, subdivide};
 use radiosity::scene::{Mode, Scene, load};
@@ -119,12 +119,10 @@ impl Race {
         };
         let rounds: Vec<(f64, f64)> = (0..rounds).map(round).collect();
         let ratio = |&(seconds, rate): &(f64, f64)| point_pairs(mesh) / rate / seconds;
-        let mut ratios: Vec<f64> = rounds.iter().map(ratio).collect();
-        ratios.sort_by(f64::total_cmp);
         Race {
             seconds: rounds.iter().map(|r| r.0).fold(f64::INFINITY, f64::min),
             rate: rounds.iter().map(|r| r.1).fold(0.0, f64::max),
-            ratio: ratios[ratios.len() / 2],
+            ratio: median(rounds.iter().map(ratio).collect()),
         }
     }
 }

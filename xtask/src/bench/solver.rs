@@ -2,7 +2,7 @@
 //! beside them.
 
 use super::form_factors::relative_error;
-use super::{Figure, Target, best_seconds, course};
+use super::{Figure, Target, best_seconds, course, median};
 use radiosity::cache::Store;
 use radiosity::form_factors::FormFactors;
 use radiosity::matrix::SymmetricMatrix;
@@ -147,11 +147,6 @@ fn passes(made: &FormFactors) -> Vec<Figure> {
             Some(Target::Between(0.0, FOUR_LIGHTS)),
         ),
     ]
-}
-
-fn median(mut numbers: Vec<f64>) -> f64 {
-    numbers.sort_by(f64::total_cmp);
-    numbers[numbers.len() / 2]
 }
 
 /// Reads all numbers.
