@@ -20,19 +20,31 @@ pub(crate) struct Digests {
 
 impl Digests {
     pub(crate) fn of(values: &[f32]) -> Digests {
-        let mut digests = Digests::default();
-        digests.extend(values);
+        let (blocks, last) = values.as_chunks::<BLOCK_VALUES>();
+        let digest = |block: &[f32; BLOCK_VALUES]| *blake3::hash(bytes(block)).as_bytes();
+        let mut digests = Digests {
+            whole: blocks.par_iter().map(digest).collect(),
+            ..Digests::default()
+        };
+        digests.extend(last);
         digests
     }
 
+    /// Adds values on the calling thread alone, which may be none of the pool's.
     pub(crate) fn extend(&mut self, values: &[f32]) {
-        let missing = (BLOCK_VALUES - self.count).min(values.len());
-        let (first, rest) = values.split_at(missing);
-        self.begin(first);
-        let (blocks, last) = rest.as_chunks::<BLOCK_VALUES>();
-        let digest = |block: &[f32; BLOCK_VALUES]| *blake3::hash(bytes(block)).as_bytes();
-        self.whole.par_extend(blocks.par_iter().map(digest));
-        self.begin(last);
+        let mut left = values;
+        while !left.is_empty() {
+            let missing = BLOCK_VALUES - self.count;
+            let (next, rest) = left.split_at(missing.min(left.len()));
+            self.begun.update(bytes(next));
+            self.count += next.len();
+            if self.count == BLOCK_VALUES {
+                self.whole.push(*self.begun.finalize().as_bytes());
+                self.begun.reset();
+                self.count = 0;
+            }
+            left = rest;
+        }
     }
 
     /// One digest per block; the last block may be shorter than others.
@@ -42,17 +54,6 @@ impl Digests {
             all.push(*self.begun.finalize().as_bytes());
         }
         all
-    }
-
-    /// Adds values to the last block, which they do not exceed.
-    fn begin(&mut self, values: &[f32]) {
-        self.begun.update(bytes(values));
-        self.count += values.len();
-        if self.count == BLOCK_VALUES {
-            self.whole.push(*self.begun.finalize().as_bytes());
-            self.begun.reset();
-            self.count = 0;
-        }
     }
 }
 

@@ -4,7 +4,8 @@
 //! The values go to their places in what will be the artifact's file, `NAME.bin.partial`, one after
 //! the other. At each checkpoint a small journal beside it, `NAME.bin.journal`, is replaced: how
 //! many values are finished, their digests, and what their maker must know to go on. In the end the
-//! head is written before the values, and the file gets its name.
+//! head is written before the values, and the file gets its name. All of this takes as long as many
+//! values take to make, so [`Draft::extend`] does it on a thread of its own while the next are made.
 
 use crate::cache_file::{journal_of, partial_of};
 use crate::digests::{Digest, Digests};
@@ -17,7 +18,10 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File, OpenOptions};
 use std::io::{Seek, SeekFrom, Write};
+use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
+use std::sync::mpsc;
+use std::thread;
 
 #[cfg(test)]
 mod tests;
@@ -35,7 +39,18 @@ pub struct Draft {
     /// How many values there will be, and how many there are.
     count: u64,
     written: u64,
+    /// How many there were at the last checkpoint.
+    saved: u64,
     digests: Digests,
+}
+
+/// The next values of a draft.
+#[derive(Debug)]
+pub struct Batch<S> {
+    /// The values.
+    pub values: Vec<f32>,
+    /// What [`Draft::resume`] will give, if there is to be a checkpoint behind them.
+    pub state: Option<S>,
 }
 
 /// What is known of a draft at a checkpoint.
@@ -73,6 +88,7 @@ impl Draft {
             start,
             count,
             written: 0,
+            saved: 0,
             digests: Digests::default(),
         })
     }
@@ -120,22 +136,55 @@ impl Draft {
             start: journal.start,
             count,
             written: journal.written,
+            saved: journal.written,
             digests,
         };
         Some((draft, state))
     }
 
-    /// How many values there are.
-    pub fn written(&self) -> u64 {
-        self.written
+    /// How many values an interruption does not lose.
+    pub fn saved(&self) -> u64 {
+        self.saved
     }
 
-    /// Writes further values.
+    /// Writes batches one after the other, each while the next one is made by the calling thread.
     ///
     /// # Panics
     ///
-    /// If there are more than was said.
-    pub fn append(&mut self, values: &[f32]) -> Result<(), CacheError> {
+    /// If there are more values than was said.
+    pub fn extend<S: Serialize + Send>(
+        &mut self,
+        batches: impl IntoIterator<Item = Batch<S>>,
+    ) -> Result<(), CacheError> {
+        thread::scope(|scope| {
+            // Without room for any: one batch is being written, and one made.
+            let (sender, receiver) = mpsc::sync_channel(0);
+            let write = move || {
+                receiver
+                    .into_iter()
+                    .try_for_each(|batch| self.write(&batch))
+            };
+            let writer = scope.spawn(write);
+            for batch in batches {
+                let writer_has_failed = sender.send(batch).is_err();
+                if writer_has_failed {
+                    break;
+                }
+            }
+            drop(sender);
+            writer.join().unwrap_or_else(|panic| resume_unwind(panic))
+        })
+    }
+
+    fn write<S: Serialize>(&mut self, batch: &Batch<S>) -> Result<(), CacheError> {
+        self.append(&batch.values)?;
+        match &batch.state {
+            Some(state) => self.checkpoint(state),
+            None => Ok(()),
+        }
+    }
+
+    fn append(&mut self, values: &[f32]) -> Result<(), CacheError> {
         self.written += values.len() as u64;
         assert!(self.written <= self.count, "more values than was said");
         let written = self.file.write_all(bytemuck::cast_slice(values));
@@ -144,9 +193,10 @@ impl Draft {
         Ok(())
     }
 
-    /// Makes sure that what is written up to now is not lost: `state` is what [`Draft::resume`]
-    /// will give.
-    pub fn checkpoint(&self, state: &impl Serialize) -> Result<(), CacheError> {
+    /// Makes sure that what is written up to now is not lost.
+    fn checkpoint(&mut self, state: &impl Serialize) -> Result<(), CacheError> {
+        let synced = self.file.sync_data();
+        synced.map_err(CacheError::new("write", &partial_of(&self.path)))?;
         let journal = Journal {
             key: self.key.bytes(),
             start: self.start,
@@ -157,7 +207,9 @@ impl Draft {
         };
         let path = journal_of(&self.path);
         let sealed = format::sealed(&format::encode(&journal));
-        replace_file(&path, &[&sealed]).map_err(CacheError::new("write", &path))
+        replace_file(&path, &[&sealed]).map_err(CacheError::new("write", &path))?;
+        self.saved = self.written;
+        Ok(())
     }
 
     /// The values up to now, in place: they stay valid when the draft is finished or dropped.

@@ -23,7 +23,7 @@ mod store;
 mod tests;
 
 pub use artifact::{Artifact, Opened, open};
-pub use draft::Draft;
+pub use draft::{Batch, Draft};
 pub use format::Miss;
 pub use key::Key;
 pub use lock::Lock;

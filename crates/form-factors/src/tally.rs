@@ -39,6 +39,15 @@ pub struct Tally {
     pairs: [AtomicU64; 2],
 }
 
+impl Clone for Tally {
+    fn clone(&self) -> Tally {
+        Tally {
+            errors: FixedSums::from_units(self.errors.units()),
+            pairs: self.pairs().map(AtomicU64::new),
+        }
+    }
+}
+
 impl Classes {
     pub(crate) fn add(&mut self, sight: Sight, error: f64) {
         let class = match sight {
@@ -57,6 +66,10 @@ impl Tally {
             errors: FixedSums::new(rows + 2),
             pairs: Default::default(),
         }
+    }
+
+    fn pairs(&self) -> [u64; 2] {
+        self.pairs.each_ref().map(|n| n.load(Ordering::Relaxed))
     }
 
     pub(crate) fn add_error(&self, row: usize, error: f64) {
@@ -86,8 +99,7 @@ impl Tally {
 
 impl Serialize for Tally {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let pairs = self.pairs.each_ref().map(|n| n.load(Ordering::Relaxed));
-        (self.errors.units(), pairs).serialize(serializer)
+        (self.errors.units(), self.pairs()).serialize(serializer)
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::facts::FactorFacts;
 use crate::job::Job;
-use radiosity_cache::{CacheError, Draft, Id, Store};
+use radiosity_cache::{Batch, Id, Store};
 use radiosity_form_factors::{Closure, ClosureFacts, FormFactors};
 use radiosity_matrix::{SymmetricMatrix, packed_len};
 use std::ops::Range;
@@ -32,24 +32,24 @@ pub(crate) fn closed(
         let exchange = exchange.expect("they are as many as before");
         return Ok((closure.complete(raw, exchange), false));
     };
-    write(&closure, raw, &mut draft)?;
+    draft.extend(batches(&closure, raw))?;
     let exchange = SymmetricMatrix::new(raw.exchange.size(), draft.values()?);
     let made = closure.complete(raw, exchange.expect("all rows are written"));
     draft.finish(&facts(&made))?;
     Ok((made, true))
 }
 
-/// Writes all rows, scaled, without a second copy in memory.
-fn write(closure: &Closure, raw: &FormFactors, draft: &mut Draft) -> Result<(), CacheError> {
-    let mut values = Vec::new();
-    for rows in runs(raw.exchange.size()) {
+/// All rows, scaled, without a second copy in memory.
+fn batches(closure: &Closure, raw: &FormFactors) -> impl Iterator<Item = Batch<()>> {
+    runs(raw.exchange.size()).map(|rows| {
         let range = packed_len(rows.start)..packed_len(rows.end);
-        values.clear();
-        values.extend_from_slice(&raw.exchange.values()[range]);
+        let mut values = raw.exchange.values()[range].to_vec();
         closure.apply(rows, &mut values);
-        draft.append(&values)?;
-    }
-    Ok(())
+        Batch {
+            values,
+            state: None,
+        }
+    })
 }
 
 /// All rows, some at a time.

@@ -1,6 +1,7 @@
 //! Stage 2 on a real machine: form factors are kept as they are made.
 
 use crate::artifact::{Sources, usable};
+use crate::batches::{Batches, Finished};
 use crate::error::Error;
 use crate::facts::FactorFacts;
 use crate::observer::{Observer, Stage};
@@ -11,30 +12,12 @@ use radiosity_form_factors::{Estimation, Estimator, FormFactors, Tally};
 use radiosity_geometry::Mesh;
 use radiosity_matrix::{SymmetricMatrix, packed_len};
 use std::io::ErrorKind;
-use std::ops::Range;
-use std::time::{Duration, Instant};
 
 /// What is to be estimated.
 pub(crate) struct Job<'a> {
     pub(crate) mesh: &'a Mesh,
     pub(crate) estimator: Estimator,
     pub(crate) observer: &'a dyn Observer,
-}
-
-/// How often checkpoints are made at most: an interruption loses what came since the last one, and
-/// a run of rows is never cut.
-const BETWEEN_CHECKPOINTS: Duration = Duration::from_millis(250);
-/// How many pairs are estimated before the clock is looked at: in the beginning, and at most.
-const FIRST_PAIRS: u64 = 1 << 16;
-const MOST_PAIRS: u64 = 1 << 24;
-
-/// Rows that are written up to here.
-struct Progress {
-    draft: Draft,
-    tally: Tally,
-    rows: usize,
-    /// How many pairs the last checkpoint has.
-    saved: u64,
 }
 
 impl Job<'_> {
@@ -68,26 +51,26 @@ impl Job<'_> {
             Sources::Computed => None,
         };
         let begun = match resumed {
-            Some(progress) => {
-                needs.check_disk(store, 4 * progress.saved)?;
-                Some(progress)
+            Some((draft, finished)) => {
+                needs.check_disk(store, 4 * draft.saved())?;
+                Some((draft, finished))
             }
-            None => self.begin_draft(store, id, &blank)?.map(|draft| Progress {
-                draft,
-                tally: Tally::new(self.mesh.patches.len()),
-                rows: 0,
-                saved: 0,
-            }),
+            None => {
+                let nothing = (0, Tally::new(needs.patches));
+                let draft = self.begin_draft(store, id, &blank)?;
+                draft.map(|draft| (draft, nothing))
+            }
         };
-        let Some(mut progress) = begun else {
+        let Some((mut draft, finished)) = begun else {
             return Ok((self.run_in_memory(&estimation), false));
         };
-        self.begin(&needs, progress.saved, &estimation);
-        let written = progress.write(&estimation, self.observer);
+        self.begin(&needs, draft.saved(), &estimation);
+        let mut batches = Batches::after(finished, &estimation, self.observer);
+        let written = draft.extend(&mut batches);
         self.observer.end();
-        let saved = progress.saved;
+        let saved = draft.saved();
         written
-            .and_then(|()| self.finish(progress, &estimation))
+            .and_then(|()| self.finish(draft, &estimation, &batches.into_tally()))
             .map(|made| (made, true))
             .map_err(|error| interrupted(&error, saved as f64 / needs.pairs as f64, sources))
     }
@@ -135,83 +118,27 @@ impl Job<'_> {
         id: &Id<'_>,
         blank: &FactorFacts,
         estimation: &Estimation<'_>,
-    ) -> Option<Progress> {
+    ) -> Option<(Draft, Finished)> {
         let size = self.mesh.patches.len();
         let count = packed_len(size) as u64;
-        let (draft, (rows, tally)) = Draft::resume::<(u64, Tally)>(store, id, blank, count)?;
-        let rows = rows as usize;
-        let is_whole = rows == size || estimation.next_rows(rows, 0).is_some();
-        let fits = draft.written() == packed_len(rows) as u64;
-        (fits && is_whole).then_some(Progress {
-            saved: draft.written(),
-            draft,
-            tally,
-            rows,
-        })
+        let (draft, (rows, tally)) = Draft::resume::<Finished>(store, id, blank, count)?;
+        let first = rows as usize;
+        let is_whole = first == size || estimation.next_rows(first, 0).is_some();
+        let fits = draft.saved() == packed_len(first) as u64;
+        (fits && is_whole).then_some((draft, (rows, tally)))
     }
 
     /// All rows are written: maps them, and adds what they make together.
     fn finish(
         &self,
-        progress: Progress,
+        draft: Draft,
         estimation: &Estimation<'_>,
+        tally: &Tally,
     ) -> Result<FormFactors, CacheError> {
-        let Progress {
-            draft, tally, rows, ..
-        } = progress;
-        let exchange = SymmetricMatrix::new(rows, draft.values()?).expect("all rows are written");
-        let made = estimation.complete(exchange, &tally);
+        let exchange = SymmetricMatrix::new(self.mesh.patches.len(), draft.values()?);
+        let made = estimation.complete(exchange.expect("all rows are written"), tally);
         draft.finish(&FactorFacts::new(self.mesh, self.estimator, &made))?;
         Ok(made)
-    }
-}
-
-impl Progress {
-    /// Estimates and writes all rows that are missing.
-    fn write(
-        &mut self,
-        estimation: &Estimation<'_>,
-        observer: &dyn Observer,
-    ) -> Result<(), CacheError> {
-        let mut pairs = FIRST_PAIRS;
-        let mut values = Vec::new();
-        let mut saved = Instant::now();
-        while let Some(rows) = estimation.next_rows(self.rows, pairs) {
-            let start = Instant::now();
-            self.write_rows(rows, &mut values, estimation, observer)?;
-            if saved.elapsed() > BETWEEN_CHECKPOINTS {
-                self.checkpoint()?;
-                saved = Instant::now();
-            }
-            if start.elapsed() < BETWEEN_CHECKPOINTS / 2 {
-                pairs = MOST_PAIRS.min(2 * pairs);
-            } else {
-                pairs = (pairs / 2).max(1);
-            }
-        }
-        Ok(())
-    }
-
-    fn write_rows(
-        &mut self,
-        rows: Range<usize>,
-        values: &mut Vec<f32>,
-        estimation: &Estimation<'_>,
-        observer: &dyn Observer,
-    ) -> Result<(), CacheError> {
-        values.clear();
-        values.resize(packed_len(rows.end) - packed_len(rows.start), 0.0);
-        let advance = |pairs| observer.advance(pairs);
-        estimation.fill_rows(rows.clone(), values, &self.tally, &advance);
-        self.draft.append(values)?;
-        self.rows = rows.end;
-        Ok(())
-    }
-
-    fn checkpoint(&mut self) -> Result<(), CacheError> {
-        self.draft.checkpoint(&(self.rows as u64, &self.tally))?;
-        self.saved = self.draft.written();
-        Ok(())
     }
 }
 

@@ -26,6 +26,7 @@
 //! ```
 
 mod artifact;
+mod batches;
 pub mod cli;
 mod closed;
 mod error;

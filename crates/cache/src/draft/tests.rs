@@ -1,11 +1,12 @@
 //! Whatever is interrupted, cut off or damaged: the artifact has the same bytes in the end.
 
-use super::Draft;
+use super::{Batch, Draft};
 use crate::cache_file::{journal_of, partial_of};
 use crate::digests::BLOCK_VALUES;
 use crate::{Id, Key, Miss, Store};
 use proptest::prelude::*;
-use std::fs::{self, OpenOptions};
+use std::fs::{self, File, OpenOptions};
+use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 const FACTS: (u8, f64) = (3, 0.5);
@@ -45,7 +46,7 @@ fn draft(store: &Store, count: usize) -> (Draft, Option<u64>) {
 /// Finishes what is there, and gives the bytes of the artifact and where it began.
 fn finished(store: &Store, values: &[f32]) -> (Vec<u8>, Option<u64>) {
     let (mut draft, begun) = draft(store, values.len());
-    draft.append(&values[draft.written() as usize..]).unwrap();
+    draft.append(&values[draft.written as usize..]).unwrap();
     assert_eq!(draft.values().unwrap().as_ref(), values);
     draft.finish(&FACTS).unwrap();
     let left = fs::read_dir(store.folder()).unwrap().count();
@@ -80,6 +81,64 @@ fn a_draft_becomes_the_artifact_that_is_written_at_once() {
         assert_eq!(begun, None);
         assert!(bytes == expected(&values), "{count} values");
     }
+}
+
+/// Batches of one value each, without checkpoints.
+fn ones(count: u64) -> impl Iterator<Item = Batch<u64>> {
+    let one = |_| Batch {
+        values: vec![1.0],
+        state: None,
+    };
+    (0..count).map(one)
+}
+
+#[test]
+fn batches_are_written_while_the_next_are_made() {
+    let folder = TempDir::new().unwrap();
+    let store = Store::new(folder.path());
+    let (mut draft, _) = draft(&store, 3);
+    let partial = partial_of(&store.path(&id(1)));
+    let length = || fs::metadata(&partial).unwrap().len();
+    let start = length();
+    let next_sees_the_last = |(k, batch)| {
+        let began = Instant::now();
+        while length() < start + 4 * k {
+            assert!(
+                began.elapsed() < Duration::from_secs(60),
+                "nothing is written"
+            );
+        }
+        batch
+    };
+    draft
+        .extend((0u64..).zip(ones(3)).map(next_sees_the_last))
+        .unwrap();
+    assert_eq!(draft.values().unwrap().as_ref(), [1.0; 3]);
+}
+
+#[test]
+fn nothing_more_is_made_when_writing_fails() {
+    let folder = TempDir::new().unwrap();
+    let store = Store::new(folder.path());
+    let (mut draft, _) = draft(&store, 1000);
+    draft.extend(ones(3)).unwrap();
+    draft.file = File::open(partial_of(&store.path(&id(1)))).unwrap();
+    let mut made = 0;
+    let failed = draft.extend(ones(997).inspect(|_| made += 1));
+    assert_eq!(failed.unwrap_err().action, "write");
+    assert!(
+        made <= 2,
+        "one fails, one finds that nobody takes it, but {made} were made"
+    );
+    assert_eq!(draft.saved(), 0);
+}
+
+#[test]
+#[should_panic(expected = "more values than was said")]
+fn more_values_than_was_said_are_a_bug() {
+    let folder = TempDir::new().unwrap();
+    let (mut draft, _) = draft(&Store::new(folder.path()), 2);
+    draft.extend(ones(3)).unwrap();
 }
 
 #[test]
@@ -129,10 +188,11 @@ proptest! {
         let values = values(lengths.iter().sum());
         for length in lengths {
             let (mut draft, begun) = draft(&store, values.len());
-            let at = draft.written();
+            let at = draft.written;
             prop_assert_eq!(begun.unwrap_or(0), at);
-            draft.append(&values[at as usize..at as usize + length]).unwrap();
-            draft.checkpoint(&draft.written()).unwrap();
+            let next = values[at as usize..at as usize + length].to_vec();
+            let state = Some(at + length as u64);
+            draft.extend([Batch { values: next, state }]).unwrap();
         }
         prop_assert!(finished(&store, &values).0 == expected(&values));
     }

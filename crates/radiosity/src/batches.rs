@@ -1,0 +1,83 @@
+//! Rows of form factors in the order of their file, as many at a time as take a moment.
+
+use crate::observer::Observer;
+use radiosity_cache::Batch;
+use radiosity_form_factors::{Estimation, Tally};
+use radiosity_matrix::packed_len;
+use std::time::{Duration, Instant};
+
+/// How often checkpoints are made at most: an interruption loses what came since the last one, and
+/// a run of rows is never cut.
+const BETWEEN_CHECKPOINTS: Duration = Duration::from_millis(250);
+/// How long a batch should take at most.
+const OF_A_BATCH: Duration = Duration::from_millis(125);
+/// How many pairs the first batch has, and any at most.
+const FIRST_PAIRS: u64 = 1 << 16;
+const MOST_PAIRS: u64 = 1 << 24;
+
+/// What a checkpoint holds: how many rows are finished, and what is known of them.
+pub(crate) type Finished = (u64, Tally);
+
+/// Estimates the rows that are missing.
+pub(crate) struct Batches<'a> {
+    estimation: &'a Estimation<'a>,
+    observer: &'a dyn Observer,
+    /// Rows up to here are estimated.
+    rows: usize,
+    tally: Tally,
+    pairs: u64,
+    checkpoint: Instant,
+}
+
+impl<'a> Batches<'a> {
+    /// After those that are finished.
+    pub(crate) fn after(
+        (rows, tally): Finished,
+        estimation: &'a Estimation<'a>,
+        observer: &'a dyn Observer,
+    ) -> Batches<'a> {
+        Batches {
+            estimation,
+            observer,
+            rows: rows as usize,
+            tally,
+            pairs: FIRST_PAIRS,
+            checkpoint: Instant::now(),
+        }
+    }
+
+    /// What is known of all rows up to now.
+    pub(crate) fn into_tally(self) -> Tally {
+        self.tally
+    }
+
+    /// What a checkpoint holds, if it is time for one.
+    fn state(&mut self) -> Option<Finished> {
+        let is_due = self.checkpoint.elapsed() > BETWEEN_CHECKPOINTS;
+        is_due.then(|| {
+            self.checkpoint = Instant::now();
+            (self.rows as u64, self.tally.clone())
+        })
+    }
+}
+
+impl Iterator for Batches<'_> {
+    type Item = Batch<Finished>;
+
+    fn next(&mut self) -> Option<Batch<Finished>> {
+        let start = Instant::now();
+        let rows = self.estimation.next_rows(self.rows, self.pairs)?;
+        let mut values = vec![0.0; packed_len(rows.end) - packed_len(rows.start)];
+        let advance = |pairs| self.observer.advance(pairs);
+        self.rows = rows.end;
+        self.estimation
+            .fill_rows(rows, &mut values, &self.tally, &advance);
+        if start.elapsed() < OF_A_BATCH {
+            self.pairs = MOST_PAIRS.min(2 * self.pairs);
+        } else {
+            self.pairs = (self.pairs / 2).max(1);
+        }
+        let state = self.state();
+        Some(Batch { values, state })
+    }
+}
