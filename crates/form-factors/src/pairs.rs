@@ -74,7 +74,17 @@ impl Estimation<'_> {
             }
             for lane in lanes.clone() {
                 let i = tiles[tile].patches[lane];
-                if let Some(between) = self.view(&between, [&self.parts[i], part_j], most) {
+                let ends = [&self.parts[i], part_j];
+                // The regular rule tries a face on all segments as fast as it is left out here.
+                let as_it_is = matches!(
+                    (&self.method, &between),
+                    (Method::Regular(_), Between::Few(_))
+                );
+                if as_it_is {
+                    if self.may_see(ends) {
+                        self.exchange((i, lane), other, &between, room, tell);
+                    }
+                } else if let Some(between) = self.view(&between, ends, most) {
                     self.exchange((i, lane), other, &between, room, tell);
                 }
             }
@@ -84,12 +94,16 @@ impl Estimation<'_> {
     /// What may stand between two parts, given what may between larger ones around them; `None` if
     /// they cannot see each other's fronts.
     fn view(&self, between: &Between, ends: [&Part; 2], most: usize) -> Option<Between> {
-        let [from, to] = ends;
-        let same_face = matches!((from.face, to.face), (Some((i, _)), Some((j, _))) if i == j);
-        if same_face || !from.may_face(to, self.obstacles.occluders.plane_tolerance()) {
+        if !self.may_see(ends) {
             return None;
         }
         self.obstacles.narrow(between, ends, most)
+    }
+
+    /// Whether a point of each may lie in front of the other.
+    fn may_see(&self, [from, to]: [&Part; 2]) -> bool {
+        let same_face = matches!((from.face, to.face), (Some((i, _)), Some((j, _))) if i == j);
+        !same_face && from.may_face(to, self.obstacles.occluders.plane_tolerance())
     }
 
     /// Estimates the exchange of a patch with those of a tile.

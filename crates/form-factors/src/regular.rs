@@ -121,8 +121,8 @@ impl Regular {
                     };
                     let own = |lane: usize| u8::from(j.faces[lane] == face) << lane;
                     dispatch(Mark {
-                        from: (shade_i.heights(face, &over, i), lane),
-                        to: shade_j.heights(face, &over, j),
+                        from: (shade_i.bearings(face, &over, i), lane),
+                        to: shade_j.bearings(face, &over, j),
                         lanes: !(0..LANES).map(own).sum::<u8>(),
                         blocked: &mut scratch.blocked,
                     });

@@ -1,25 +1,32 @@
 //! What blocks the segments between the points of two patches, eight at a time.
 
-use crate::blocker::{Blocker, EDGES, PLANES, Plane};
+use crate::blocker::{Blocker, EDGES, Plane};
 use crate::samples::{Lanes, Samples};
 use radiosity_geometry::FaceId;
 use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
 
 /// Edges are moved outwards by this, in units of the scene's extent, so that no segment slips
-/// through between neighbours: eight times what rounding makes of a height.
+/// through between neighbours: eight times what rounding makes of a height where one crosses.
 const GROWTH: f64 = 4.0 / (1 << 23) as f64;
 
-/// The heights of eight points over the planes of a face.
-pub(crate) type Heights = [Lanes<f32>; PLANES];
+/// Where eight points lie, seen from a face.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bearing {
+    /// The height over each edge, in units of the distance from the face's plane.
+    slopes: [Lanes<f32>; EDGES],
+    /// Which points are above that plane, and which below it: one bit per lane.
+    above: u8,
+    below: u8,
+}
 
-/// The heights of the points of a tile over the planes of faces: each is computed once.
+/// Where the points of a tile lie, seen from faces: each is found out once.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Shade {
     faces: Vec<FaceId>,
     /// By face of the scene: its place among `faces`, if it is there.
     places: Vec<u32>,
     /// By face and point.
-    heights: Vec<Heights>,
+    bearings: Vec<Bearing>,
 }
 
 const NOWHERE: u32 = u32::MAX;
@@ -29,16 +36,16 @@ impl Shade {
         for face in self.faces.drain(..) {
             self.places[face.index()] = NOWHERE;
         }
-        self.heights.clear();
+        self.bearings.clear();
     }
 
-    /// By point, in units of the scene's extent.
-    pub(crate) fn heights(
+    /// By point.
+    pub(crate) fn bearings(
         &mut self,
         face: FaceId,
         over: &Over<'_>,
         samples: &Samples,
-    ) -> &[Heights] {
+    ) -> &[Bearing] {
         if self.places.len() <= face.index() {
             self.places.resize(face.index() + 1, NOWHERE);
         }
@@ -46,32 +53,32 @@ impl Shade {
         if *place == NOWHERE {
             *place = self.faces.len() as u32;
             self.faces.push(face);
-            let heights = &mut self.heights;
+            let bearings = &mut self.bearings;
             dispatch(Measure {
                 over,
                 samples,
-                heights,
+                bearings,
             });
         }
         let count = samples.points.len();
         let at = *place as usize;
-        &self.heights[at * count..(at + 1) * count]
+        &self.bearings[at * count..(at + 1) * count]
     }
 }
 
-/// What heights are measured over, and how.
+/// What bearings are taken from, and how.
 pub(crate) struct Over<'a> {
     pub(crate) blocker: &'a Blocker,
     /// The scene's extent.
     pub(crate) unit: f64,
-    /// Up to this, heights over the face itself are zero.
+    /// Points up to this far from the face's plane are in it.
     pub(crate) tolerance: f64,
 }
 
 struct Measure<'a> {
     over: &'a Over<'a>,
     samples: &'a Samples,
-    heights: &'a mut Vec<Heights>,
+    bearings: &'a mut Vec<Bearing>,
 }
 
 impl Kernel for Measure<'_> {
@@ -88,20 +95,26 @@ impl Kernel for Measure<'_> {
             offset: plane.offset / unit,
             ..plane
         });
-        let zero = simd.splat_f64(0.0);
+        let (zero, one) = (simd.splat_f64(0.0), simd.splat_f64(1.0));
         let tolerance = simd.splat_f64(tolerance / unit);
         for point in &self.samples.points {
             let [x, y, z] = &point.position;
             let point = [simd.f64(x), simd.f64(y), simd.f64(z)];
             let height = plane.heights(simd, point);
-            let tiny = height.max(-height).less_or_equal(tolerance);
-            let mut heights = [[0.0; LANES]; PLANES];
-            heights[0] = simd.narrow(zero.select(tiny, height)).lanes();
-            for (e, edge) in edges.iter().enumerate() {
+            let distance = height.max(-height);
+            let in_plane = distance.less_or_equal(tolerance);
+            // Slopes of points in the plane are never looked at.
+            let per_distance = one / one.select(in_plane, distance);
+            let mut slopes = [[0.0; LANES]; EDGES];
+            for (slope, edge) in slopes.iter_mut().zip(&edges) {
                 let height = edge.heights(simd, point) + simd.splat_f64(GROWTH);
-                heights[1 + e] = simd.narrow(height).lanes();
+                *slope = simd.narrow(height * per_distance).lanes();
             }
-            self.heights.push(heights);
+            self.bearings.push(Bearing {
+                slopes,
+                above: zero.less(height) & !in_plane,
+                below: height.less(zero) & !in_plane,
+            });
         }
     }
 }
@@ -109,8 +122,8 @@ impl Kernel for Measure<'_> {
 /// Marks the segments from a point of each patch of a tile to a patch that a face blocks.
 pub(crate) struct Mark<'a> {
     /// Of the points of a tile, and which of its patches is meant.
-    pub(crate) from: (&'a [Heights], usize),
-    pub(crate) to: &'a [Heights],
+    pub(crate) from: (&'a [Bearing], usize),
+    pub(crate) to: &'a [Bearing],
     /// The lanes of `to` that the face may block.
     pub(crate) lanes: u8,
     /// By point of `to` and point of `from`: one bit per lane.
@@ -120,35 +133,28 @@ pub(crate) struct Mark<'a> {
 impl Kernel for Mark<'_> {
     type Output = ();
 
-    /// A segment is blocked if its ends are on either side of the face, and if where it crosses
-    /// that plane its height over each edge, times a positive number, is not negative.
+    /// A segment is blocked if its ends are on either side of the face, and where it crosses that
+    /// plane it is not below any edge. Its height over an edge there is the mean of those of its
+    /// ends, each weighted by the other's distance from the plane: times a positive number, the sum
+    /// of the slopes.
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let (from, lane) = self.from;
         let zero = simd.splat_f32(0.0);
-        for (to, blocked) in self
-            .to
-            .iter()
-            .zip(self.blocked.chunks_exact_mut(from.len()))
-        {
-            let [to_plane, to_edges @ ..] = to;
-            let to_plane = simd.f32(to_plane);
+        let of_point = self.blocked.chunks_exact_mut(from.len());
+        for (to, blocked) in self.to.iter().zip(of_point) {
+            let mut to_slopes = [zero; EDGES];
+            for (lanes, slopes) in to_slopes.iter_mut().zip(&to.slopes) {
+                *lanes = simd.f32(slopes);
+            }
             for (from, blocked) in from.iter().zip(blocked) {
-                if *blocked == !0 {
-                    continue;
+                let mut least = simd.splat_f32(f32::INFINITY);
+                for (from, &to) in from.slopes.iter().zip(&to_slopes) {
+                    least = least.min(simd.splat_f32(from[lane]) + to);
                 }
-                let from_plane = simd.splat_f32(from[0][lane]);
-                // Positive where the ends are on either side, times the height of the first.
-                let across = -(to_plane * from_plane);
-                let squared = from_plane * from_plane;
-                let mut least = across;
-                for e in 0..EDGES {
-                    let at = simd.splat_f32(from[1 + e][lane]) * across
-                        + simd.f32(&to_edges[e]) * squared;
-                    least = least.min(at);
-                }
-                let opposite = zero.less(across);
-                *blocked |= opposite & zero.less_or_equal(least) & self.lanes;
+                let is = |side: u8| 0u8.wrapping_sub(side >> lane & 1);
+                let beyond = is(from.above) & to.below | is(from.below) & to.above;
+                *blocked |= zero.less_or_equal(least) & beyond & self.lanes;
             }
         }
     }
