@@ -8,6 +8,7 @@ use crate::tiles::Tiling;
 use crate::transfer::{FarTransfer, Source, Transfer};
 use radiosity_geometry::{Bundle, Mesh, Occluders};
 use radiosity_simd::{Kernel, LANES, Simd, dispatch};
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// The regular points of all patches.
@@ -32,7 +33,7 @@ impl Regular {
         let units = Units::of(mesh);
         let samples = |tile| Samples::new(mesh, obstacles, tile, points, units);
         Regular {
-            samples: tiling.tiles.iter().map(samples).collect(),
+            samples: tiling.tiles.par_iter().map(samples).collect(),
             units,
         }
     }
