@@ -201,9 +201,12 @@ fn sin_cos<S: Simd>(simd: S, x: S::F32) -> [S::F32; 2] {
     [x * sin, cos]
 }
 
-/// What rays meet first of all faces but one.
+/// What rays meet first of all faces but one. Others in the same plane are met at once, but they are
+/// not in front of it.
 #[inline(always)]
 fn trace<S: Simd>(obstacles: &Obstacles, except: FaceId, rays: &Rays<S>) -> Met {
+    let occluders = &obstacles.occluders;
+    let in_plane = occluders.plane_tolerance();
     let from = rays.from.lanes();
     let [x, y, z] = &rays.direction;
     let along = [x.lanes(), y.lanes(), z.lanes()];
@@ -215,9 +218,7 @@ fn trace<S: Simd>(obstacles: &Obstacles, except: FaceId, rays: &Rays<S>) -> Met 
         let origin = DVec3::from_array(from.map(|axis| axis[lane]));
         let direction = DVec3::from_array(along.map(|axis| f64::from(axis[lane])));
         let ray = Ray::new(origin, direction);
-        let hit = obstacles
-            .occluders
-            .closest_hit(&ray, 0.0, f64::INFINITY, Some(except));
+        let hit = occluders.closest_hit(&ray, in_plane, f64::INFINITY, Some(except));
         met.nothing |= u8::from(hit.is_none()) << lane;
         let is_bare = |wall: FaceId| obstacles.walls.bare[wall.index()];
         let is_back = hit.is_some_and(|hit| !hit.front || is_bare(hit.face));

@@ -73,6 +73,21 @@ fn among_many_walls_they_are_backs_too() {
 }
 
 #[test]
+fn what_lies_in_its_plane_is_not_in_sight() {
+    for others in [0, 40] {
+        let one = Divisions::uniform(1);
+        let mut surfaces = vec![
+            square(1.0, 0.1, 1.0, one),
+            square(9.0, 0.1, -1.0, Divisions::Uncut),
+        ];
+        surfaces.extend((0..others).map(|k| square(1.0, -2.0 - f64::from(k), 1.0, one)));
+        let mesh = subdivide(&surfaces, one).unwrap();
+        let made = estimate(&mesh, ESTIMATORS[0], &|_| ());
+        assert_eq!(made.rows[0].background, 1.0, "{:?}", made.rows[0]);
+    }
+}
+
+#[test]
 fn a_scene_needs_a_patch() {
     let surfaces = [square(1.0, 0.0, 1.0, Divisions::Uncut)];
     let error = subdivide(&surfaces, Divisions::uniform(1)).unwrap_err();
