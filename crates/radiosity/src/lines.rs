@@ -1,6 +1,6 @@
 //! What is said of scenes and artifacts, to people.
 
-use crate::resources::grouped;
+use crate::resources::{PATCHES, SURFACES, counted};
 use crate::rows::RowSummary;
 use radiosity_form_factors::Classes;
 use radiosity_scene::Scene;
@@ -8,11 +8,11 @@ use radiosity_scene::Scene;
 /// The scene, and into how many patches it is cut.
 pub(crate) fn scene_line(scene: &Scene, patches: usize) -> String {
     format!(
-        "{:<14}{}: {} surfaces, {} patches",
+        "{:<14}{}: {}, {}",
         "scene",
         scene.name,
-        grouped(scene.surfaces.len() as u64),
-        grouped(patches as u64),
+        counted(scene.surfaces.len(), SURFACES),
+        counted(patches, PATCHES),
     )
 }
 

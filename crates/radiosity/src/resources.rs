@@ -153,6 +153,16 @@ pub(crate) fn grouped(n: u64) -> String {
     text
 }
 
+/// How many there are of something: one of it, or more.
+pub(crate) fn counted(n: usize, [one, more]: [&str; 2]) -> String {
+    format!("{} {}", grouped(n as u64), if n == 1 { one } else { more })
+}
+
+/// For [`counted`].
+pub(crate) const SURFACES: [&str; 2] = ["surface", "surfaces"];
+/// For [`counted`].
+pub(crate) const PATCHES: [&str; 2] = ["patch", "patches"];
+
 /// A size in decimal units.
 pub(crate) fn bytes(n: u64) -> String {
     let units = ["B", "kB", "MB", "GB", "TB"];
@@ -189,6 +199,10 @@ mod tests {
         assert_eq!(
             ["0", "999", "1,728", "1,492,128"],
             [0, 999, 1728, 1_492_128].map(grouped)[..]
+        );
+        assert_eq!(
+            ["0 patches", "1 patch", "2,400 patches"],
+            [0, 1, 2400].map(|n| counted(n, PATCHES))[..]
         );
         let sizes = [12, 999, 1_000, 5_968_512, 123_456_789, 1_530_000_000].map(bytes);
         assert_eq!(

@@ -6,7 +6,7 @@ use super::terminal::say;
 use crate::error::Error;
 use crate::inspect::{CLOSURE_BOUNDS, FactorInspection, Inspection, SolutionInspection, WorstRow};
 use crate::lines::{class_line, closure_line, error_line, indented, labelled, row_line};
-use crate::resources::{bytes, grouped};
+use crate::resources::{PATCHES, SURFACES, bytes, counted, grouped};
 use radiosity_cache::{Miss, open};
 use std::path::Path;
 
@@ -77,10 +77,10 @@ fn surface_names(
 
 fn factor_lines(found: &FactorInspection) -> Vec<String> {
     let made = format!(
-        "{}; {} patches of {} surfaces",
+        "{}; {} of {}",
         found.estimator.text(),
-        grouped(found.patches as u64),
-        grouped(found.surfaces as u64),
+        counted(found.patches, PATCHES),
+        counted(found.surfaces, SURFACES),
     );
     let mut lines = vec![
         labelled("form factors", &made),
@@ -146,9 +146,9 @@ fn solution_line(found: &SolutionInspection) -> String {
         ", which is not the tolerance"
     };
     let text = format!(
-        "{} patches, {} sweeps to residual {:.1e}{end}",
-        grouped(found.patches as u64),
-        found.sweeps,
+        "{}, {} to residual {:.1e}{end}",
+        counted(found.patches, PATCHES),
+        counted(found.sweeps, ["sweep", "sweeps"]),
         found.residual,
     );
     labelled("solution", &text)
