@@ -1,21 +1,24 @@
-//! The estimators on one room, per pair of patches.
+//! The estimators per pair of patches: in one room, and where one kernel does nearly all of the work.
 
 #![allow(missing_docs, reason = "criterion's macros write public items")]
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use radiosity_form_factors::{Estimator, estimate};
 use radiosity_geometry::{DVec3, Divisions, Mesh, Shape, Surface, subdivide};
 
-/// A closed room with a screen across half of it.
-fn room() -> Mesh {
-    let parallelogram = |corner: [f64; 3], edge_a: [f64; 3], edge_b: [f64; 3]| Surface {
+fn parallelogram(corner: [f64; 3], edge_a: [f64; 3], edge_b: [f64; 3]) -> Surface {
+    Surface {
         shape: Shape::Parallelogram {
             corner: DVec3::from(corner),
             edge_a: DVec3::from(edge_a),
             edge_b: DVec3::from(edge_b),
         },
         divisions: None,
-    };
+    }
+}
+
+/// A closed room with a screen across half of it.
+fn room() -> Mesh {
     let surfaces = [
         parallelogram([0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 2.0, 0.0]),
         parallelogram([0.0, 0.0, 4.0], [3.0, 0.0, 0.0], [0.0, 0.0, -4.0]),
@@ -26,6 +29,47 @@ fn room() -> Mesh {
         parallelogram([1.0, 0.0, 2.1], [1.5, 0.0, 0.0], [0.0, 1.2, 0.0]),
     ];
     subdivide(&surfaces, Divisions::uniform(6)).expect("the room is well-formed")
+}
+
+/// Two squares of 256 patches that face each other, and as many small screens halfway between.
+fn squares(distance: f64, screens: usize) -> Mesh {
+    let mut surfaces = vec![
+        parallelogram([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
+        parallelogram([0.0, 0.0, distance], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]),
+    ];
+    surfaces.extend((0..screens).map(|k| {
+        let from = 0.1 + 0.8 * k as f64 / screens as f64;
+        let height = 0.5 * distance;
+        let screen = parallelogram([from, from, height], [0.1, 0.0, 0.0], [0.02, 0.1, 0.0]);
+        Surface {
+            divisions: Some(Divisions::Uncut),
+            ..screen
+        }
+    }));
+    subdivide(&surfaces, Divisions::uniform(16)).expect("the squares are well-formed")
+}
+
+/// Far away stand-ins and Gauss's rules, near by all points and contours, behind screens marks and
+/// lines.
+fn kernels(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("pairs of two squares");
+    group.throughput(Throughput::Elements(256 * 256));
+    let modes = [
+        ("regular", Estimator::Regular { points: 3 }),
+        ("accurate", Estimator::Accurate { tolerance: 0.01 }),
+    ];
+    let cases = [
+        ("far", squares(2.0, 0)),
+        ("near", squares(0.1, 0)),
+        ("screened", squares(2.0, 3)),
+    ];
+    for (case, mesh) in &cases {
+        for (mode, estimator) in modes {
+            let id = BenchmarkId::new(mode, case);
+            group.bench_function(id, |b| b.iter(|| estimate(mesh, estimator, &|_| ())));
+        }
+    }
+    group.finish();
 }
 
 fn estimators(criterion: &mut Criterion) {
@@ -54,6 +98,6 @@ fn estimators(criterion: &mut Criterion) {
 criterion_group! {
     name = benches;
     config = Criterion::default().sample_size(10);
-    targets = estimators
+    targets = estimators, kernels
 }
 criterion_main!(benches);
