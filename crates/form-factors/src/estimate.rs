@@ -6,6 +6,7 @@
 //! is the same for any number of threads.
 
 use crate::accurate::Accurate;
+use crate::fixed::Fixed;
 use crate::monte_carlo::{MonteCarlo, Strata};
 use crate::obstacles::Obstacles;
 use crate::pairs::Told;
@@ -17,6 +18,7 @@ use crate::tiles::{Tile, Tiling};
 use crate::{Estimator, FormFactors};
 use radiosity_geometry::{Mesh, Patch};
 use radiosity_matrix::{SymmetricMatrix, packed_len, rows_mut};
+use radiosity_simd::LANES;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -216,6 +218,7 @@ impl<'a> Estimation<'a> {
         let patches = &self.tiling.tiles[tile].patches;
         let area = |patch: usize| self.mesh.patches[patch].area;
         let mut classes = Classes::default();
+        let mut errors = [Fixed::default(); LANES];
         let mut tell = |lane: usize, told: Told<'_>| {
             let row = &mut *rows[lane];
             for (&j, &value) in told.others.iter().zip(told.values) {
@@ -225,9 +228,8 @@ impl<'a> Estimation<'a> {
                 };
                 *entry = value;
                 if let Some((sight, error)) = told.estimate {
-                    let i = patches[lane];
-                    tally.add_error(i, error / area(i));
-                    tally.add_error(j, error / area(j));
+                    errors[lane] += Fixed::of(error / area(patches[lane]));
+                    tally.add_error(j, Fixed::of(error / area(j)));
                     // In a mean over rows a pair counts twice.
                     classes.add(sight, 2.0 * error * self.scale);
                 }
@@ -236,6 +238,9 @@ impl<'a> Estimation<'a> {
         let groups = self.tiling.groups.iter();
         for group in groups.take_while(|group| group.tiles.start <= tile) {
             self.against((tile, 0..patches.len()), group, room, &mut tell);
+        }
+        for (&patch, error) in patches.iter().zip(errors) {
+            tally.add_error(patch, error);
         }
         tally.add_classes(&classes);
     }

@@ -1,12 +1,32 @@
 //! Sums that do not depend on the order in which threads add to them.
 
+use std::ops::AddAssign;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Sums of positive numbers, up to 2^24, in units of 2^-40: rounding the numbers up to whole units
-/// makes their addition exact, and so commutative.
+/// Sums of positive numbers, up to 2^24, to which any thread may add.
 pub(crate) struct FixedSums(Vec<AtomicU64>);
 
+/// A positive number in units of 2^-40: rounding numbers up to whole units makes their addition
+/// exact, and so commutative.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Fixed(u64);
+
 const UNITS: f64 = (1u64 << 40) as f64;
+
+impl Fixed {
+    /// Zero, if it is not positive.
+    pub(crate) fn of(number: f64) -> Fixed {
+        let units = number * UNITS;
+        let whole = units as u64;
+        Fixed(whole + u64::from((whole as f64) < units))
+    }
+}
+
+impl AddAssign for Fixed {
+    fn add_assign(&mut self, other: Fixed) {
+        self.0 += other.0;
+    }
+}
 
 impl FixedSums {
     pub(crate) fn new(count: usize) -> FixedSums {
@@ -17,10 +37,8 @@ impl FixedSums {
         self.0.len()
     }
 
-    pub(crate) fn add(&self, index: usize, number: f64) {
-        if number > 0.0 {
-            self.0[index].fetch_add((number * UNITS).ceil() as u64, Ordering::Relaxed);
-        }
+    pub(crate) fn add(&self, index: usize, number: Fixed) {
+        self.0[index].fetch_add(number.0, Ordering::Relaxed);
     }
 
     pub(crate) fn sums(&self) -> Vec<f64> {
@@ -48,7 +66,9 @@ mod tests {
         let numbers = [0.3, 1e-9, 0.7, 0.1 / 3.0, 1.0 / 7.0];
         let sum = |order: [usize; 5]| {
             let sums = FixedSums::new(2);
-            order.into_iter().for_each(|k| sums.add(1, numbers[k]));
+            for k in order {
+                sums.add(1, Fixed::of(numbers[k]));
+            }
             sums.sums()
         };
         let forth = sum([0, 1, 2, 3, 4]);
@@ -58,12 +78,20 @@ mod tests {
     }
 
     #[test]
+    fn numbers_are_rounded_up_to_whole_units() {
+        let units =
+            [-1.0, 0.0, 1e-300, 1.0, 1.0 + 1e-9, 7.5].map(|units| Fixed::of(units / UNITS).0);
+        assert_eq!(units, [0, 0, 1, 1, 2, 8]);
+        assert_eq!(Fixed::of(f64::NAN).0, 0);
+    }
+
+    #[test]
     fn a_copy_goes_on_where_the_first_was() {
         let sums = FixedSums::new(1);
-        sums.add(0, 0.1);
+        sums.add(0, Fixed::of(0.1));
         let copy = FixedSums::from_units(sums.units());
-        sums.add(0, 0.7);
-        copy.add(0, 0.7);
+        sums.add(0, Fixed::of(0.7));
+        copy.add(0, Fixed::of(0.7));
         assert_eq!(sums.sums(), copy.sums());
     }
 }

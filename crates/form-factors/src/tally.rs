@@ -1,6 +1,6 @@
 //! What is counted while rows are filled: the same whatever the order.
 
-use crate::fixed::FixedSums;
+use crate::fixed::{Fixed, FixedSums};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -72,14 +72,14 @@ impl Tally {
         self.pairs.each_ref().map(|n| n.load(Ordering::Relaxed))
     }
 
-    pub(crate) fn add_error(&self, row: usize, error: f64) {
+    pub(crate) fn add_error(&self, row: usize, error: Fixed) {
         self.errors.add(row, error);
     }
 
     pub(crate) fn add_classes(&self, classes: &Classes) {
         let rows = self.errors.count() - 2;
         for (k, class) in [classes.clear, classes.partial].into_iter().enumerate() {
-            self.errors.add(rows + k, class.error);
+            self.errors.add(rows + k, Fixed::of(class.error));
             self.pairs[k].fetch_add(class.pairs, Ordering::Relaxed);
         }
     }
