@@ -16,7 +16,7 @@ pub(crate) struct Blocker {
 pub(crate) const PLANES: usize = 5;
 pub(crate) const EDGES: usize = PLANES - 1;
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Plane {
     pub(crate) normal: DVec3,
     pub(crate) offset: f64,

@@ -24,6 +24,7 @@ pub(crate) struct Lines<'a> {
 struct Screen([Side; PLANES]);
 
 /// A plane, and the heights of each fan over it.
+#[derive(Clone, Copy, Default)]
 struct Side {
     plane: Plane,
     fans: [Heights; 2],
@@ -40,22 +41,32 @@ struct Heights {
 impl<'a> Lines<'a> {
     /// There are at most [`MOST_BLOCKERS`].
     pub(crate) fn new(from: &'a Target, across: &'a Target, blockers: &[Blocker]) -> Lines<'a> {
-        let side = |plane: Plane| {
-            let mut fans = [Heights::default(); 2];
-            for (heights, fan) in fans.iter_mut().zip(&across.fans) {
-                *heights = Heights {
-                    apex: plane.height(fan.apex),
-                    sides: fan.sides.map(|side| plane.normal.dot(side)),
-                };
-            }
-            Side { plane, fans }
-        };
-        let screen = |blocker: &Blocker| Screen(blocker.planes.map(side));
-        Lines {
+        let mut lines = Lines {
             from,
             across,
-            screens: blockers.iter().map(screen).collect(),
+            screens: ArrayVec::new(),
+        };
+        for blocker in blockers {
+            lines.screens.push(Screen::new(blocker, across));
         }
+        lines
+    }
+}
+
+impl Screen {
+    fn new(blocker: &Blocker, across: &Target) -> Screen {
+        let mut sides = [Side::default(); PLANES];
+        for (side, plane) in sides.iter_mut().zip(&blocker.planes) {
+            side.plane = *plane;
+            for (heights, fan) in side.fans.iter_mut().zip(&across.fans) {
+                let [start, end] = fan.sides;
+                *heights = Heights {
+                    apex: plane.height(fan.apex),
+                    sides: [plane.normal.dot(start), plane.normal.dot(end)],
+                };
+            }
+        }
+        Screen(sides)
     }
 }
 
