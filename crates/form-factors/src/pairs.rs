@@ -6,7 +6,8 @@ use crate::estimate::{Estimation, Method, Room};
 use crate::obstacles::Between;
 use crate::part::Part;
 use crate::tally::Sight;
-use crate::tiles::Group;
+use crate::tiles::{Group, Tile};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// So many faces are listed between two parts; among more, segments find their way by the tree.
@@ -45,50 +46,65 @@ impl Estimation<'_> {
     ) {
         let tiles = &self.tiling.tiles;
         let part = &tiles[tile].part;
-        let most = match self.method {
-            Method::Regular(_) | Method::MonteCarlo(_) => MANY,
-            Method::Accurate(_) => FEW,
-        };
         let Some(between) = self.view(&Between::Many, [part, &group.part], FEW) else {
             return;
         };
         for other in group.tiles.clone() {
-            let part_j = &tiles[other].part;
             // The only tile of a group is all of it.
             let narrowed = match group.tiles.len() {
                 1 => Some(between.clone()),
-                _ => self.view(&between, [part, part_j], FEW),
+                _ => self.view(&between, [part, &tiles[other].part], FEW),
             };
-            let Some(between) = narrowed else { continue };
-            if let Method::Regular(regular) = &self.method {
-                regular.prepare([tile, other], &mut room.regular);
-                if between.is_clear()
-                    && let Some(values) = regular.exchange_far(&lanes, &mut room.regular)
-                {
-                    let others = &tiles[other].patches;
-                    for lane in lanes.clone() {
-                        tell(lane, Told::plain(others, &values[lane]));
-                    }
-                    continue;
-                }
-            }
-            for lane in lanes.clone() {
-                let i = tiles[tile].patches[lane];
-                let ends = [&self.parts[i], part_j];
-                // The regular rule tries a face on all segments as fast as it is left out here.
-                let as_it_is = matches!(
-                    (&self.method, &between),
-                    (Method::Regular(_), Between::Few(_))
-                );
-                if as_it_is {
-                    if self.may_see(ends) {
-                        self.exchange((i, lane), other, &between, room, tell);
-                    }
-                } else if let Some(between) = self.view(&between, ends, most) {
-                    self.exchange((i, lane), other, &between, room, tell);
-                }
+            if let Some(between) = narrowed {
+                self.against_tile((tile, lanes.clone()), other, &between, room, tell);
             }
         }
+    }
+
+    /// The same with those of a tile, given what may stand between both tiles.
+    fn against_tile(
+        &self,
+        (tile, lanes): (usize, Range<usize>),
+        other: usize,
+        between: &Between,
+        room: &mut Room,
+        tell: &mut impl FnMut(usize, Told<'_>),
+    ) {
+        let [Tile { patches, .. }, others] = [tile, other].map(|tile| &self.tiling.tiles[tile]);
+        if let Method::Regular(regular) = &self.method {
+            regular.prepare([tile, other], &mut room.regular);
+            if between.is_clear()
+                && let Some(values) = regular.exchange_far(&lanes, &mut room.regular)
+            {
+                for lane in lanes {
+                    tell(lane, Told::plain(&others.patches, &values[lane]));
+                }
+                return;
+            }
+        }
+        for lane in lanes {
+            let i = patches[lane];
+            if let Some(between) = self.view_of_patch(between, [&self.parts[i], &others.part]) {
+                self.exchange((i, lane), other, &between, room, tell);
+            }
+        }
+    }
+
+    /// [`Estimation::view`] of a patch, given what may stand between its tile and another.
+    fn view_of_patch<'b>(
+        &self,
+        between: &'b Between,
+        ends: [&Part; 2],
+    ) -> Option<Cow<'b, Between>> {
+        let most = match (&self.method, between) {
+            // A face is tried on all segments as fast as it is found to be out of their way.
+            (Method::Regular(_), Between::Few(_)) => {
+                return self.may_see(ends).then_some(Cow::Borrowed(between));
+            }
+            (Method::Regular(_) | Method::MonteCarlo(_), _) => MANY,
+            (Method::Accurate(_), _) => FEW,
+        };
+        self.view(between, ends, most).map(Cow::Owned)
     }
 
     /// What may stand between two parts, given what may between larger ones around them; `None` if
