@@ -7,8 +7,8 @@ use crate::error::Error;
 use crate::export::input_order;
 use crate::resources::check_parts;
 use radiosity_form_factors::{FormFactors, LumpedFactors, RowFacts};
-use radiosity_geometry::{Mesh, Patch};
-use radiosity_scene::{Scene, Surface};
+use radiosity_geometry::{Face, Mesh, Patch};
+use radiosity_scene::Scene;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -20,7 +20,7 @@ pub enum By {
     Patch,
     /// Surfaces, in scene order.
     Surface,
-    /// Groups of surfaces, in the order of their first ones.
+    /// Groups of surfaces, and of faces of meshes, in the order of their first patches.
     Group,
 }
 
@@ -62,16 +62,16 @@ impl<'a> FactorTable<'a> {
         form_factors: &'a FormFactors,
         by: By,
     ) -> Result<FactorTable<'a>, Error> {
-        let name_of: fn(&Surface) -> &str = match by {
+        let name_of: fn(&'a Scene, &Face) -> &'a str = match by {
             By::Patch => return Ok(FactorTable::of_patches(scene, mesh, form_factors)),
-            By::Surface => |surface| &surface.name,
-            By::Group => |surface| &surface.group,
+            By::Surface => |scene, face| &scene.surfaces[face.surface.index()].name,
+            By::Group => |scene, face| scene.group(face.surface, face.input_index),
         };
         let mut names: Vec<&str> = Vec::new();
         let mut part_of_name = BTreeMap::new();
         // Surfaces without patches are no part of the matrix.
         let part = |patch: &Patch| {
-            let name = name_of(&scene.surfaces[patch.surface.index()]);
+            let name = name_of(scene, &mesh.faces[patch.face.index()]);
             *part_of_name.entry(name).or_insert_with(|| {
                 names.push(name);
                 names.len() - 1

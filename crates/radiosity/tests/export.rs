@@ -164,6 +164,30 @@ fn parts_are_means_of_their_patches() {
     );
 }
 
+/// The inside of a unit cube.
+const CUBE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
+    g floor\nf 1 2 3 4\ng walls\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n\
+    g ceiling\nf 5 8 7 6\n";
+
+#[test]
+fn groups_of_a_mesh_file_are_parts() {
+    let place = Place::new();
+    place.write("cube.obj", CUBE);
+    let surface = "[materials.white]\nreflectance = 0.5\n[[surfaces]]\nname = \"cube\"\n\
+        material = \"white\"\nmesh = { file = \"cube.obj\" }\ndivisions = 3\n";
+    place.write("cube.toml", surface);
+    place.succeed("form-factors cube.toml --cache c --export f.csv --by group");
+    let lines = read_table(&place, "f.csv");
+    let factor = |from: &str, to: &str| {
+        let is_it = |line: &&BTreeMap<_, _>| line["from"] == from && line["to"] == to;
+        number(lines.iter().find(is_it).unwrap(), "F")
+    };
+    // Of opposite squares (Howell, C-11), to its published digits.
+    let opposite = 0.199_825;
+    assert!((factor("cube/floor", "cube/ceiling") - opposite).abs() < 2e-6);
+    assert!((factor("cube/floor", "cube/walls") - (1.0 - opposite)).abs() < 2e-6);
+}
+
 #[test]
 fn what_is_left_out_is_told() {
     let place = Place::new();

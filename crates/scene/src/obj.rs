@@ -19,7 +19,7 @@ pub(crate) struct ObjMesh {
 /// Where a face comes from in its file.
 #[derive(Clone)]
 pub(crate) struct Label {
-    group: Rc<str>,
+    pub(crate) group: Rc<str>,
     material: Option<Rc<str>>,
     /// Position among the polygons of the file.
     pub(crate) polygon: usize,

@@ -50,6 +50,13 @@ impl Scene {
         &self.materials[materials[input_face as usize]]
     }
 
+    /// The group of a face, by its surface and its input index.
+    pub fn group(&self, surface: SurfaceId, input_face: u32) -> &str {
+        let surface = &self.surfaces[surface.index()];
+        let of_face = surface.groups_of_faces.get(input_face as usize);
+        of_face.map_or(&surface.group, |group| group)
+    }
+
     /// The camera, or else that of the first view.
     pub fn first_camera(&self) -> Option<Camera> {
         let first_view = self.views.first().map(|view| view.camera);

@@ -9,6 +9,8 @@ use radiosity_geometry::{self as geometry, DVec3, Divisions, Shape};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::rc::Rc;
+use std::sync::Arc;
 use toml::Spanned;
 
 /// A surface, apart from its shape.
@@ -18,6 +20,9 @@ pub struct Surface {
     pub name: String,
     /// The group of surfaces that it belongs to, by default one of its own: its name.
     pub group: String,
+    /// For meshes whose file names several groups, unless the scene file says which group the
+    /// surface belongs to: `SURFACE/GROUP`, for each face in input order.
+    pub groups_of_faces: Vec<Arc<str>>,
     /// Index into the scene's materials, for each face in input order; just one for a surface
     /// of one face.
     pub materials: Vec<usize>,
@@ -146,10 +151,14 @@ impl Context<'_> {
             let has_text = |name: &String| !name.trim().is_empty();
             require(&self.source, group, has_text, "a group", "some text")?;
         }
-        let group = table.group.as_ref().map_or(name, |group| group.get_ref());
+        let (group, groups_of_faces) = match &table.group {
+            Some(group) => (group.get_ref(), Vec::new()),
+            None => (name, groups_of_faces(name, &labels)),
+        };
         let surface = Surface {
             name: name.clone(),
             group: group.clone(),
+            groups_of_faces,
             materials: self.materials_of(table, &labels)?,
             polygons: labels.iter().map(|label| label.polygon as u32).collect(),
         };
@@ -257,5 +266,20 @@ impl Context<'_> {
                 .suggest(wanted, known);
             self.source.error(name.span(), &complaint)
         })
+    }
+}
+
+/// The group of each face of a mesh, if its file names several.
+fn groups_of_faces(surface: &str, labels: &[obj::Label]) -> Vec<Arc<str>> {
+    let mut groups = BTreeMap::new();
+    let of_face = |label: &obj::Label| {
+        let full = || Arc::from(format!("{surface}/{}", label.group));
+        Arc::clone(groups.entry(Rc::clone(&label.group)).or_insert_with(full))
+    };
+    let of_faces: Vec<Arc<str>> = labels.iter().map(of_face).collect();
+    if groups.len() > 1 {
+        of_faces
+    } else {
+        Vec::new()
     }
 }

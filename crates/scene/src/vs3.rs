@@ -53,6 +53,7 @@ pub(crate) fn parse(source: &Source<'_>) -> Result<Scene, SceneError> {
         surfaces.push(Surface {
             name: names[index].clone(),
             group: groups[index].clone(),
+            groups_of_faces: Vec::new(),
             materials: vec![material(&mut materials, entry.emittance); faces],
             polygons: match &shape {
                 Shape::Mesh(_) => vec![0; faces],

@@ -9,7 +9,7 @@ pub enum ByArg {
     Patch,
     /// Surfaces: the mean over their patches, weighted by area
     Surface,
-    /// Groups of surfaces, as the scene names them
+    /// Groups of surfaces, as the scene names them, and of faces, as mesh files do
     Group,
 }
 

@@ -2,7 +2,7 @@
 
 use crate::{Scene, parse};
 use proptest::prelude::*;
-use radiosity_geometry::{DVec3, Shape};
+use radiosity_geometry::{DVec3, Shape, SurfaceId};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -36,6 +36,24 @@ fn reflectances(scene: &Scene) -> Vec<f64> {
         .iter()
         .map(|&m| scene.materials[m].reflectance[0])
         .collect()
+}
+
+#[test]
+fn groups_of_a_mesh_are_groups_of_the_scene() {
+    let scene = MeshScene::new(TWO_GROUPS);
+    let groups = |extra| {
+        let scene = scene.parse("model.obj", extra).unwrap();
+        [0, 1].map(|face| scene.group(SurfaceId(0), face).to_owned())
+    };
+    assert_eq!(groups(" }"), ["thing/base", "thing/side"]);
+    assert_eq!(groups(" }\ngroup = \"all\""), ["all", "all"]);
+    let one = MeshScene::new(&TWO_GROUPS.replace("g side", "g base"));
+    let one = one.parse("model.obj", " }").unwrap();
+    assert_eq!(
+        one.group(SurfaceId(0), 1),
+        "thing",
+        "one group is all of it"
+    );
 }
 
 #[test]
