@@ -17,19 +17,13 @@ fn relit_is_solved_anew() {
     let dimming = [[0.3, 0.2, 1.0], [7.0, 0.0, 2.0]];
     let relit = relit(&case.solve(&Params::default()).lights, &dimming);
     let mut dimmed = two_lights();
-    let lights = case.lights.iter().zip(&dimming);
-    dimmed.lights = vec![
-        (0..30)
-            .map(|i| {
-                std::array::from_fn(|c| {
-                    lights
-                        .clone()
-                        .map(|(light, dim)| light[i][c] * dim[c])
-                        .sum()
-                })
-            })
-            .collect(),
-    ];
+    let mut sum = vec![[0.0; 3]; 30];
+    for (light, dim) in case.lights.iter().zip(&dimming) {
+        for (sum, emission) in sum.iter_mut().zip(light) {
+            *sum = std::array::from_fn(|c| sum[c] + emission[c] * dim[c]);
+        }
+    }
+    dimmed.lights = vec![sum];
     let fresh = &dimmed.solve(&Params::default()).lights[0];
     for (relit, fresh) in relit.as_flattened().iter().zip(fresh.as_flattened()) {
         // Residuals of 1e-6 of emissions that are at most 40 times the radiosity of the others.
