@@ -4,8 +4,8 @@
 //! The values go to their places in what will be the artifact's file, `NAME.bin.partial`, one after
 //! the other. At each checkpoint a small journal beside it, `NAME.bin.journal`, is replaced: how
 //! many values are finished, their digests, and what their maker must know to go on. In the end the
-//! head is written before the values, and the file gets its name. All of this takes as long as many
-//! values take to make, so [`Draft::extend`] does it on a thread of its own while the next are made.
+//! head is written before the values, and the file gets its name. Writing values and checkpoints
+//! takes about as long as making the values, so [`Draft::extend`] does that on another thread meanwhile.
 
 use crate::cache_file::{journal_of, partial_of};
 use crate::digests::{Digest, Digests};
@@ -147,7 +147,9 @@ impl Draft {
         self.saved
     }
 
-    /// Writes batches one after the other, each while the next one is made by the calling thread.
+    /// Writes batches one after the other, each while the next one is made by the calling thread. After
+    /// an error no more are made than the one that was begun. If making one panics, those before it are
+    /// still written.
     ///
     /// # Panics
     ///
@@ -156,6 +158,7 @@ impl Draft {
         &mut self,
         batches: impl IntoIterator<Item = Batch<S>>,
     ) -> Result<(), CacheError> {
+        let partial = partial_of(&self.path);
         thread::scope(|scope| {
             // Without room for any: one batch is being written, and one made.
             let (sender, receiver) = mpsc::sync_channel(0);
@@ -164,7 +167,9 @@ impl Draft {
                     .into_iter()
                     .try_for_each(|batch| self.write(&batch))
             };
-            let writer = scope.spawn(write);
+            let writer = thread::Builder::new()
+                .spawn_scoped(scope, write)
+                .map_err(CacheError::new("start writing", &partial))?;
             for batch in batches {
                 let writer_has_failed = sender.send(batch).is_err();
                 if writer_has_failed {

@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Sums of positive numbers, up to 2^24, to which any thread may add.
 pub(crate) struct FixedSums(Vec<AtomicU64>);
 
-/// A positive number in units of 2^-40: rounding numbers up to whole units makes their addition
-/// exact, and so commutative.
+/// A positive number, up to 2^24, in units of 2^-40: rounding numbers up to whole units makes their
+/// addition exact, and so commutative.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Fixed(u64);
 
@@ -18,7 +18,7 @@ impl Fixed {
     pub(crate) fn of(number: f64) -> Fixed {
         let units = number * UNITS;
         let whole = units as u64;
-        Fixed(whole + u64::from((whole as f64) < units))
+        Fixed(whole.saturating_add(u64::from((whole as f64) < units)))
     }
 }
 
@@ -83,6 +83,7 @@ mod tests {
             [-1.0, 0.0, 1e-300, 1.0, 1.0 + 1e-9, 7.5].map(|units| Fixed::of(units / UNITS).0);
         assert_eq!(units, [0, 0, 1, 1, 2, 8]);
         assert_eq!(Fixed::of(f64::NAN).0, 0);
+        assert_eq!(Fixed::of(f64::INFINITY).0, u64::MAX);
     }
 
     #[test]

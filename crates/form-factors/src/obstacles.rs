@@ -13,7 +13,7 @@ pub(crate) struct Obstacles {
     blockers: Vec<Blocker>,
 }
 
-/// What may stand between two parts of which one does not hide the other.
+/// What may stand between two parts.
 #[derive(Clone, Debug)]
 pub(crate) enum Between {
     /// These faces; none if the view is clear.

@@ -12,7 +12,8 @@ use std::ops::Range;
 
 /// So many faces are listed between two parts; among more, segments find their way by the tree.
 const FEW: usize = 64;
-/// Between parts that all segments of the regular rule, 81 of them, are tried at once.
+/// So many for the regular rule, which tries a face on all segments of a pair at once, where tiles have
+/// too many between them.
 const MANY: usize = 256;
 
 /// What is found out about a patch and some others, often a single one.
@@ -90,14 +91,16 @@ impl Estimation<'_> {
         }
     }
 
-    /// [`Estimation::view`] of a patch, given what may stand between its tile and another.
+    /// What may stand between a patch and a tile, given what may between both tiles; `None` if they
+    /// cannot see each other's fronts. For the regular rule these are all that may stand between the
+    /// tiles, the patch's own wall and what hides all of it included: trying a face on all segments
+    /// takes no longer than finding out.
     fn view_of_patch<'b>(
         &self,
         between: &'b Between,
         ends: [&Part; 2],
     ) -> Option<Cow<'b, Between>> {
         let most = match (&self.method, between) {
-            // A face is tried on all segments as fast as it is found to be out of their way.
             (Method::Regular(_), Between::Few(_)) => {
                 return self.may_see(ends).then_some(Cow::Borrowed(between));
             }

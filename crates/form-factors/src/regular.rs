@@ -114,7 +114,8 @@ impl Regular {
         scratch.blocked.resize(i.points.len() * j.points.len(), 0);
         match between {
             Between::Few(faces) => {
-                for &face in faces {
+                // Points of almost planar quads may lie beside their own wall.
+                for &face in faces.iter().filter(|&&face| face != i.faces[lane]) {
                     let over = Over {
                         blocker: obstacles.blocker(face),
                         unit: self.units.length,

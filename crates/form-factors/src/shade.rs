@@ -95,16 +95,14 @@ impl Kernel for Measure<'_> {
             offset: plane.offset / unit,
             ..plane
         });
-        let (zero, one) = (simd.splat_f64(0.0), simd.splat_f64(1.0));
+        let one = simd.splat_f64(1.0);
         let tolerance = simd.splat_f64(tolerance / unit);
         for point in &self.samples.points {
             let [x, y, z] = &point.position;
             let point = [simd.f64(x), simd.f64(y), simd.f64(z)];
             let height = plane.heights(simd, point);
-            let distance = height.max(-height);
-            let in_plane = distance.less_or_equal(tolerance);
-            // Slopes of points in the plane are never looked at.
-            let per_distance = one / one.select(in_plane, distance);
+            // Of points in the plane slopes are infinite, or no numbers; those are on neither side.
+            let per_distance = one / height.max(-height);
             let mut slopes = [[0.0; LANES]; EDGES];
             for (slope, edge) in slopes.iter_mut().zip(&edges) {
                 let height = edge.heights(simd, point) + simd.splat_f64(GROWTH);
@@ -112,8 +110,8 @@ impl Kernel for Measure<'_> {
             }
             self.bearings.push(Bearing {
                 slopes,
-                above: zero.less(height) & !in_plane,
-                below: height.less(zero) & !in_plane,
+                above: tolerance.less(height),
+                below: height.less(-tolerance),
             });
         }
     }

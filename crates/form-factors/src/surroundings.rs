@@ -116,7 +116,7 @@ impl Kernel for Look<'_> {
             let rays = rays(simd, (self.patch, &target), k, self.shifts);
             let met = match self.ahead {
                 Some(ahead) => ahead.meet(simd, &rays.from, rays.direction),
-                None => trace(self.obstacles, self.obstacles.wall(self.patch), &rays),
+                None => trace(self.obstacles, self.patch, &rays),
             };
             let weight = rays.from.area;
             all = all + weight;
@@ -201,12 +201,11 @@ fn sin_cos<S: Simd>(simd: S, x: S::F32) -> [S::F32; 2] {
     [x * sin, cos]
 }
 
-/// What rays meet first of all faces but one. Others in the same plane are met at once, but they are
-/// not in front of it.
+/// What rays from a patch meet first: of its wall and others in the same plane nothing is in front of it.
 #[inline(always)]
-fn trace<S: Simd>(obstacles: &Obstacles, except: FaceId, rays: &Rays<S>) -> Met {
+fn trace<S: Simd>(obstacles: &Obstacles, patch: &Patch, rays: &Rays<S>) -> Met {
     let occluders = &obstacles.occluders;
-    let in_plane = occluders.plane_tolerance();
+    let own = obstacles.wall(patch);
     let from = rays.from.lanes();
     let [x, y, z] = &rays.direction;
     let along = [x.lanes(), y.lanes(), z.lanes()];
@@ -218,7 +217,8 @@ fn trace<S: Simd>(obstacles: &Obstacles, except: FaceId, rays: &Rays<S>) -> Met 
         let origin = DVec3::from_array(from.map(|axis| axis[lane]));
         let direction = DVec3::from_array(along.map(|axis| f64::from(axis[lane])));
         let ray = Ray::new(origin, direction);
-        let hit = occluders.closest_hit(&ray, in_plane, f64::INFINITY, Some(except));
+        let above_plane = occluders.plane_tolerance() / direction.dot(patch.normal);
+        let hit = occluders.closest_hit(&ray, above_plane, f64::INFINITY, Some(own));
         met.nothing |= u8::from(hit.is_none()) << lane;
         let is_bare = |wall: FaceId| obstacles.walls.bare[wall.index()];
         let is_back = hit.is_some_and(|hit| !hit.front || is_bare(hit.face));

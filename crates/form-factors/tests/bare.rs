@@ -78,9 +78,11 @@ fn what_lies_in_its_plane_is_not_in_sight() {
         let one = Divisions::uniform(1);
         let mut surfaces = vec![
             square(1.0, 0.1, 1.0, one),
-            square(9.0, 0.1, -1.0, Divisions::Uncut),
+            // Less than what counts as in the plane where coordinates reach 4.5.
+            square(9.0, 0.1 + 4e-12, -1.0, Divisions::Uncut),
         ];
-        surfaces.extend((0..others).map(|k| square(1.0, -2.0 - f64::from(k), 1.0, one)));
+        let others = (0..others).map(|k| square(1.0, -2.0 - 0.01 * f64::from(k), 1.0, one));
+        surfaces.extend(others);
         let mesh = subdivide(&surfaces, one).unwrap();
         let made = estimate(&mesh, ESTIMATORS[0], &|_| ());
         assert_eq!(made.rows[0].background, 1.0, "{:?}", made.rows[0]);

@@ -5,7 +5,7 @@ mod plain;
 
 use plain::Plain;
 use radiosity_form_factors::{Estimator, estimate};
-use radiosity_geometry::subdivide;
+use radiosity_geometry::{DVec3, Divisions, PolygonMesh, Shape, Surface, subdivide};
 use rayon::prelude::*;
 use std::path::PathBuf;
 
@@ -35,6 +35,52 @@ fn check(name: &str) {
         errors.len()
     );
     assert!(larger as f64 <= GRAZING * errors.len() as f64);
+}
+
+/// Of the eight quads of a trough, the factors to a square over it; every other corner is moved up
+/// by so much and the others down, so that quads are almost planar.
+fn from_trough(uneven: f64) -> Vec<f64> {
+    let corner = |k: u32| {
+        let (x, y) = (f64::from(k / 3) * 0.25, f64::from(k % 3) * 0.5);
+        let sign = if (k / 3 + k % 3).is_multiple_of(2) {
+            1.0
+        } else {
+            -1.0
+        };
+        DVec3::new(x, y, 0.3 * (x - 0.5).powi(2) + uneven * sign)
+    };
+    let quad = |k: u32| {
+        let at = 3 * (k / 2) + k % 2;
+        vec![at, at + 3, at + 4, at + 1]
+    };
+    let trough = Shape::Mesh(PolygonMesh {
+        positions: (0..15).map(corner).collect(),
+        faces: (0..8).map(quad).collect(),
+    });
+    let square = Shape::Parallelogram {
+        corner: DVec3::Z,
+        edge_a: DVec3::Y,
+        edge_b: DVec3::X,
+    };
+    let surfaces = [(square, 4), (trough, 1)].map(|(shape, divisions)| Surface {
+        shape,
+        divisions: Some(Divisions::uniform(divisions)),
+    });
+    let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
+    let factors = estimate(&mesh, Estimator::Regular { points: 3 }, &|_| ());
+    let to_square = |i| (0..16).map(|j| factors.factor(i, j)).sum();
+    (16..24).map(to_square).collect()
+}
+
+#[test]
+fn almost_planar_quads_do_not_hide_themselves() {
+    let even = from_trough(0.0);
+    assert!(even.iter().all(|&factor| factor > 0.2));
+    for uneven in [1e-9, 1e-7, 1e-6] {
+        for (even, uneven) in even.iter().zip(from_trough(uneven)) {
+            assert!((even - uneven).abs() < 1e-5, "{even} {uneven}");
+        }
+    }
 }
 
 #[test]

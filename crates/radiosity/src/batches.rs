@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 /// How often checkpoints are made at most: an interruption loses what came since the last one, and
 /// a run of rows is never cut.
 const BETWEEN_CHECKPOINTS: Duration = Duration::from_millis(250);
-/// How long a batch should take at most.
+/// How long a batch should take at most, with waiting until the one before it is written.
 const OF_A_BATCH: Duration = Duration::from_millis(125);
 /// How many pairs the first batch has, and any at most.
 const FIRST_PAIRS: u64 = 1 << 16;
@@ -26,6 +26,8 @@ pub(crate) struct Batches<'a> {
     rows: usize,
     tally: Tally,
     pairs: u64,
+    /// When the last batch was begun.
+    begun: Option<Instant>,
     checkpoint: Instant,
 }
 
@@ -42,13 +44,25 @@ impl<'a> Batches<'a> {
             rows: rows as usize,
             tally,
             pairs: FIRST_PAIRS,
+            begun: None,
             checkpoint: Instant::now(),
         }
     }
 
-    /// What is known of all rows up to now.
+    /// What is known of all rows that are estimated.
     pub(crate) fn into_tally(self) -> Tally {
         self.tally
+    }
+
+    /// More pairs or fewer, by how long the last batch took.
+    fn adapt(&mut self) {
+        if let Some(begun) = self.begun {
+            self.pairs = match begun.elapsed() < OF_A_BATCH {
+                true => MOST_PAIRS.min(2 * self.pairs),
+                false => (self.pairs / 2).max(1),
+            };
+        }
+        self.begun = Some(Instant::now());
     }
 
     /// What a checkpoint holds, if it is time for one.
@@ -65,18 +79,13 @@ impl Iterator for Batches<'_> {
     type Item = Batch<Finished>;
 
     fn next(&mut self) -> Option<Batch<Finished>> {
-        let start = Instant::now();
+        self.adapt();
         let rows = self.estimation.next_rows(self.rows, self.pairs)?;
         let mut values = vec![0.0; packed_len(rows.end) - packed_len(rows.start)];
         let advance = |pairs| self.observer.advance(pairs);
         self.rows = rows.end;
         self.estimation
             .fill_rows(rows, &mut values, &self.tally, &advance);
-        if start.elapsed() < OF_A_BATCH {
-            self.pairs = MOST_PAIRS.min(2 * self.pairs);
-        } else {
-            self.pairs = (self.pairs / 2).max(1);
-        }
         let state = self.state();
         Some(Batch { values, state })
     }

@@ -5,7 +5,9 @@ use crate::cache_file::{journal_of, partial_of};
 use crate::digests::BLOCK_VALUES;
 use crate::{Id, Key, Miss, Store};
 use proptest::prelude::*;
+use serde::{Serialize, Serializer};
 use std::fs::{self, File, OpenOptions};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
@@ -92,28 +94,39 @@ fn ones(count: u64) -> impl Iterator<Item = Batch<u64>> {
     (0..count).map(one)
 }
 
+/// A state that can be saved once the next batch is being made.
+struct OnceTheNextIsBegun<'a>(&'a AtomicBool);
+
+impl Serialize for OnceTheNextIsBegun<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let began = Instant::now();
+        while !self.0.load(Ordering::Acquire) {
+            assert!(
+                began.elapsed() < Duration::from_secs(60),
+                "nothing is made meanwhile"
+            );
+            std::thread::yield_now();
+        }
+        serializer.serialize_u64(1)
+    }
+}
+
 #[test]
 fn batches_are_written_while_the_next_are_made() {
     let folder = TempDir::new().unwrap();
     let store = Store::new(folder.path());
-    let (mut draft, _) = draft(&store, 3);
-    let partial = partial_of(&store.path(&id(1)));
-    let length = || fs::metadata(&partial).unwrap().len();
-    let start = length();
-    let next_sees_the_last = |(k, batch)| {
-        let began = Instant::now();
-        while length() < start + 4 * k {
-            assert!(
-                began.elapsed() < Duration::from_secs(60),
-                "nothing is written"
-            );
+    let (mut draft, _) = draft(&store, 2);
+    let next_is_begun = AtomicBool::new(false);
+    let batch = |k: u32| {
+        next_is_begun.store(k == 1, Ordering::Release);
+        Batch {
+            values: vec![k as f32],
+            state: (k == 0).then_some(OnceTheNextIsBegun(&next_is_begun)),
         }
-        batch
     };
-    draft
-        .extend((0u64..).zip(ones(3)).map(next_sees_the_last))
-        .unwrap();
-    assert_eq!(draft.values().unwrap().as_ref(), [1.0; 3]);
+    draft.extend((0..2).map(batch)).unwrap();
+    assert_eq!(draft.values().unwrap().as_ref(), [0.0, 1.0]);
+    assert_eq!(draft.saved(), 1);
 }
 
 #[test]
