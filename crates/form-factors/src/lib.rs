@@ -75,8 +75,8 @@ pub enum Estimator {
     /// are overestimated, since the integrand is singular there (two squares at a right angle
     /// by 21.8 % with 3 x 3 points).
     ///
-    /// Where patches far apart see all of each other, four points with the same moments stand for all
-    /// of a patch: factors differ by less than 1e-6.
+    /// Where parallelograms and triangles far apart see all of each other, four points with the same
+    /// moments up to the third order stand for all of a patch: factors differ by less than 1e-6.
     Regular {
         /// Points along each edge of a patch.
         points: u32,

@@ -103,8 +103,8 @@ impl Sampler for Lines<'_> {
             coordinate(simd, k, 1, shifts),
         );
         let p = points(simd, self.from, u, v);
-        // Of the longest line.
-        let length = coordinate(simd, k, 2, shifts);
+        // Of the longest line; one without length would have no foot.
+        let length = coordinate(simd, k, 2, shifts).max(simd.splat_f64(SHORTEST));
         let (mut all, mut visible) = (zero, zero);
         for (number, fan) in self.across.fans.iter().enumerate() {
             let light = light(simd, (self.from, &p), (self.across.normal, fan), length);
@@ -127,6 +127,8 @@ impl Sampler for Lines<'_> {
     }
 }
 
+/// Lines are at least so long, in units of the longest.
+const SHORTEST: f64 = 1e-50;
 /// Lines nearer to a point than this times their length are that near: the light stays finite.
 const NEAREST: f64 = 1e-10;
 

@@ -104,8 +104,8 @@ impl Estimation<'_> {
             (Method::Regular(_), Between::Few(_)) => {
                 return self.may_see(ends).then_some(Cow::Borrowed(between));
             }
-            (Method::Regular(_) | Method::MonteCarlo(_), _) => MANY,
-            (Method::Accurate(_), _) => FEW,
+            (Method::Regular(_), _) => MANY,
+            (Method::MonteCarlo(_) | Method::Accurate(_), _) => FEW,
         };
         self.view(between, ends, most).map(Cow::Owned)
     }

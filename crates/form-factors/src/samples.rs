@@ -13,7 +13,7 @@ pub(crate) type Lanes<T> = [T; LANES];
 
 /// Few points stand for all beyond so many radii: factors by either differ by less than 1e-6 there
 /// (`tests/few_points.rs` says why).
-const NEAR: f32 = 10.0;
+const NEAR: f32 = 10.8;
 
 /// The points of a tile, in units of the scene's extent.
 #[derive(Clone, Debug)]

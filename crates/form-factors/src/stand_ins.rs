@@ -1,7 +1,7 @@
 //! A few points that stand for all regular ones of a patch as others see it from afar.
 //!
 //! Their moments agree with those of all points up to the third order. Where the kernel is smooth, the
-//! sums over all pairs of points then differ by its fourth derivatives alone.
+//! sums over all pairs of points then differ by its fourth and higher derivatives alone.
 
 use crate::points::{Sample, regular};
 use radiosity_geometry::{DVec3, Polygon};
@@ -23,7 +23,7 @@ pub(crate) fn stand_ins(polygon: &Polygon, n: u32) -> Option<[Sample; STAND_INS]
     }
 }
 
-/// Along each edge, two points at the standard deviation of all.
+/// Along each edge, one standard deviation of all points to either side of the middle.
 fn on_parallelogram(polygon: &Polygon, n: u32) -> [Sample; STAND_INS] {
     let deviation = ((1.0 - f64::from(n).powi(-2)) / 12.0).sqrt();
     let [low, high] = [0.5 - deviation, 0.5 + deviation];
@@ -33,7 +33,7 @@ fn on_parallelogram(polygon: &Polygon, n: u32) -> [Sample; STAND_INS] {
     })
 }
 
-/// The centroid, whose area may be negative, and a point on the way from it to each corner. By
+/// The centroid, whose area is negative (seen from afar, the others make up for it), and a point on the way from it to each corner. By
 /// symmetry there is but one moment of the second order, and one of the third.
 fn on_triangle(polygon: &Polygon, n: u32) -> [Sample; STAND_INS] {
     let standard = Polygon::triangle([DVec3::ZERO, DVec3::X, DVec3::Y]);

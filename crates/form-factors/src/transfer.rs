@@ -18,7 +18,7 @@ pub(crate) struct Transfer<'a> {
     pub(crate) sources: &'a mut Vec<Source>,
 }
 
-/// The same of several patches of a tile, by their lanes, with nothing in the way; nothing unless all are far
+/// The same of several patches of a tile, by their lanes, with nothing in the way; `None` unless all are far
 /// from the others.
 pub(crate) struct FarTransfer<'a> {
     pub(crate) from: (&'a Local, &'a Range<usize>),
