@@ -30,8 +30,8 @@ impl Digests {
         digests
     }
 
-    /// Adds values, on the calling thread alone: that of a writer belongs to no pool, and would wake
-    /// one with more threads than were asked for.
+    /// Adds values, on the calling thread alone: that of a writer belongs to no pool, and would
+    /// wake one with more threads than were asked for.
     pub(crate) fn extend(&mut self, values: &[f32]) {
         let mut left = values;
         while !left.is_empty() {

@@ -5,7 +5,8 @@
 //! the other. At each checkpoint a small journal beside it, `NAME.bin.journal`, is replaced: how
 //! many values are finished, their digests, and what their maker must know to go on. In the end the
 //! head is written before the values, and the file gets its name. Writing values and checkpoints
-//! takes about as long as making the values, so [`Draft::extend`] does that on another thread meanwhile.
+//! takes about as long as making the values, so [`Draft::extend`] does that on another thread
+//! meanwhile.
 
 use crate::cache_file::{journal_of, partial_of};
 use crate::digests::{Digest, Digests};
@@ -147,9 +148,9 @@ impl Draft {
         self.saved
     }
 
-    /// Writes batches one after the other, each while the next one is made by the calling thread. After
-    /// an error no more are made than the one that was begun. If making one panics, those before it are
-    /// still written.
+    /// Writes batches one after the other, each while the next one is made by the calling thread.
+    /// After an error no more are made than the one that was begun. If making one panics, those
+    /// before it are still written.
     ///
     /// # Panics
     ///

@@ -1,9 +1,9 @@
 //! Stage 2: all rows, or some of them at a time.
 //!
 //! Patches are met in tiles of eight. What may stand between two tiles is narrowed down on the
-//! way from groups of tiles to single patches, or for the regular rule to tiles (`pairs.rs`), so most
-//! pairs cost no visibility test at all. Tiles of rows are filled in parallel; each entry depends on its pair alone, so the result
-//! is the same for any number of threads.
+//! way from groups of tiles to single patches, or for the regular rule to tiles (`pairs.rs`), so
+//! most pairs cost no visibility test at all. Tiles of rows are filled in parallel; each entry
+//! depends on its pair alone, so the result is the same for any number of threads.
 
 use crate::accurate::Accurate;
 use crate::fixed::Fixed;

@@ -169,8 +169,7 @@ fn light<S: Simd>(
     bright.to = bright.to.max(bright.from);
     // The area that stands for a piece of the line goes with its length.
     let area = simd.splat_f64(fan.area) * length;
-    // A line without length has no light.
-    let scale = zero.if_less(square, height_of_p * area / (square * square), zero);
+    let scale = height_of_p * area / (square * square);
     Light {
         foot,
         squared: squared.max(simd.splat_f64(NEAREST * NEAREST)),
