@@ -36,9 +36,12 @@ struct LocalPlane {
 }
 
 /// What rays have met, one bit per lane.
+#[derive(Clone, Copy, Default)]
 pub(crate) struct Met {
     pub(crate) backs: u8,
     pub(crate) nothing: u8,
+    /// Fronts that have backs in the same place.
+    pub(crate) backed: u8,
 }
 
 impl Ahead {
@@ -82,7 +85,8 @@ impl Ahead {
     /// What rays from points of the patch, in directions of unit length, meet first.
     ///
     /// A ray meets a wall if it comes nearer to its plane, and if where it crosses that it is inside of
-    /// all edges. A back as near as a front is met first.
+    /// all edges. Where a front and a back lie in one place, up to rounding, it meets the front, as
+    /// [`Occluders::closest_hit`](radiosity_geometry::Occluders::closest_hit) does.
     #[inline(always)]
     pub(crate) fn meet<S: Simd>(
         &self,
@@ -97,25 +101,34 @@ impl Ahead {
         ];
         let (zero, outside) = (simd.splat_f32(0.0), simd.splat_f32(-self.margin));
         let nowhere = simd.splat_f32(f32::INFINITY);
-        let (mut nearest, mut nearest_back) = (nowhere, nowhere);
+        let mut front = nowhere;
+        // The least and the largest distance that the nearest back may have.
+        let (mut back_from, mut back_to) = (nowhere, nowhere);
         for wall in &self.walls {
             let height = wall.plane.height(simd, from);
             let rise = wall.plane.rise(simd, direction);
             let (distance, speed) = (height.max(-height), rise.max(-rise));
             let inside = wall.inside(simd, (from, distance), (direction, speed));
-            let at = inside.if_less(outside, nowhere, distance / speed);
+            let (at, rounding) = (distance / speed, simd.splat_f32(self.margin) / speed);
+            let at = inside.if_less(outside, nowhere, at);
             let at = (height * rise).if_less(zero, at, nowhere);
-            nearest = nearest.min(at);
-            let at_back = match wall.bare {
-                true => at,
-                false => height.if_less(zero, at, nowhere),
+            let (at_front, at_back) = match wall.bare {
+                true => (nowhere, at),
+                false => (
+                    height.if_less(zero, nowhere, at),
+                    height.if_less(zero, at, nowhere),
+                ),
             };
-            nearest_back = nearest_back.min(at_back);
+            front = at_front.min(front);
+            // Nowhere less infinity is no number: the least of it and another is the other.
+            back_from = (at_back - rounding).min(back_from);
+            back_to = (at_back + rounding).min(back_to);
         }
-        let something = nearest.less(nowhere);
+        let (fronts, backs) = (front.less(nowhere), back_to.less(front));
         Met {
-            backs: nearest_back.less_or_equal(nearest) & something,
-            nothing: !something,
+            backs,
+            nothing: !(fronts | backs),
+            backed: fronts & !backs & back_from.less_or_equal(front),
         }
     }
 }

@@ -1,6 +1,6 @@
-//! Which part of a patch is hidden, by what rays from its cells have met: of each cell, the weights of
-//! all rays and of those that met backs.
+//! Which part of a patch is hidden, by what rays from its cells have met.
 
+use crate::ahead::Met;
 use radiosity_simd::LANES;
 
 /// Where backs are more than this share of what a point sees, it lies inside of something, or right under
@@ -10,78 +10,104 @@ const HIDDEN: f64 = 0.95;
 const SUSPICIOUS: f64 = 0.9;
 /// And a part of it, where they are more than this, and twice what they are in all cells.
 const PARTLY_SUSPICIOUS: f64 = 0.6;
+/// Cells of which fewer rays than this share tell something count as seen. In a corner under a tall box a
+/// quarter of them does.
+const ENOUGH: f64 = 0.125;
 
 /// Where on the patch eight rays started, the weight of each, and which of them met backs.
 pub(crate) struct Starts {
     /// Coordinates from 0 to 1.
     pub(crate) on_patch: [[f64; LANES]; 2],
     pub(crate) weights: [f64; LANES],
-    pub(crate) backs: u8,
+    pub(crate) met: Met,
 }
 
-/// Of a square of cells, so many along each edge, the weights of all rays and of those that met backs;
-/// no cells if no ray did.
-pub(crate) fn by_cell(starts: &[Starts], edge: usize) -> Vec<[f64; 2]> {
-    if starts.iter().all(|starts| starts.backs == 0) {
+/// What rays from a part of a patch have met, by their weights.
+///
+/// Fronts that have backs in the same place tell nothing: the walls of a room may be made of two faces
+/// each, and a box may stand against a wall, over a floor that is hidden.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Cell {
+    all: f64,
+    telling: f64,
+    backs: f64,
+}
+
+impl Cell {
+    /// The share of backs.
+    fn backs(&self) -> f64 {
+        if self.telling > ENOUGH * self.all {
+            self.backs / self.telling
+        } else {
+            0.0
+        }
+    }
+
+    fn add(&mut self, other: &Cell) {
+        self.all += other.all;
+        self.telling += other.telling;
+        self.backs += other.backs;
+    }
+
+    fn sum<'a>(cells: impl IntoIterator<Item = &'a Cell>) -> Cell {
+        let mut sum = Cell::default();
+        cells.into_iter().for_each(|cell| sum.add(cell));
+        sum
+    }
+}
+
+/// A square of cells, so many along each edge; none if no ray met a back.
+pub(crate) fn by_cell(starts: &[Starts], edge: usize) -> Vec<Cell> {
+    if starts.iter().all(|starts| starts.met.backs == 0) {
         return Vec::new();
     }
-    let mut cells = vec![[0.0; 2]; edge * edge];
+    let mut cells = vec![Cell::default(); edge * edge];
     for starts in starts {
         let [u, v] = &starts.on_patch;
-        for (lane, weight) in starts.weights.iter().enumerate() {
+        for (lane, &weight) in starts.weights.iter().enumerate() {
             let along = |x: f64| ((x * edge as f64) as usize).min(edge - 1);
-            let cell = &mut cells[along(u[lane]) * edge + along(v[lane])];
-            cell[0] += weight;
-            cell[1] += weight * f64::from(starts.backs >> lane & 1);
+            let weight_in = |mask: u8| weight * f64::from(mask >> lane & 1);
+            cells[along(u[lane]) * edge + along(v[lane])].add(&Cell {
+                all: weight,
+                telling: weight_in(!starts.met.backed),
+                backs: weight_in(starts.met.backs),
+            });
         }
     }
     cells
 }
 
-/// Whether cells of which a patch sees backs by so much on average tell of a hidden part.
-pub(crate) fn is_suspicious(cells: &[[f64; 2]], mean: f64) -> bool {
-    let shares = cells.iter().map(|[all, backs]| backs / all);
-    let most = shares.fold(0.0, f64::max);
-    most > SUSPICIOUS || most > PARTLY_SUSPICIOUS && most > 2.0 * mean
+/// Whether a part of the patch may be hidden.
+pub(crate) fn is_suspicious(cells: &[Cell]) -> bool {
+    let most = cells.iter().map(Cell::backs).fold(0.0, f64::max);
+    most > SUSPICIOUS || most > PARTLY_SUSPICIOUS && most > 2.0 * Cell::sum(cells).backs()
 }
 
-/// The visible share of a square of cells, by the weights of their rays. A cell beside a hidden one may
+/// The visible share of a square of cells. A cell beside a hidden one may
 /// be hidden in part, and then sees more of backs than cells elsewhere do. All is visible if there are no
 /// cells.
-pub(crate) fn visible_share(cells: &[[f64; 2]]) -> f64 {
+pub(crate) fn visible_share(cells: &[Cell]) -> f64 {
     if cells.is_empty() {
         return 1.0;
     }
     let edge = cells.len().isqrt();
-    let is_hidden = |cell: usize| cells[cell][1] > HIDDEN * cells[cell][0];
+    let is_hidden = |cell: usize| cells[cell].backs() > HIDDEN;
     let is_beside_hidden = |cell: usize| {
         let around = |k: usize| k.saturating_sub(1)..(k + 2).min(edge);
         let (i, j) = (cell / edge, cell % edge);
         around(i).any(|i| around(j).any(|j| is_hidden(edge * i + j)))
     };
-    let sum = |cells: &[[f64; 2]]| {
-        let all: f64 = cells.iter().map(|[all, _]| all).sum();
-        let backs: f64 = cells.iter().map(|[_, backs]| backs).sum();
-        (all, backs)
-    };
     let clear = (0..cells.len()).filter(|&cell| !is_beside_hidden(cell));
-    let clear: Vec<[f64; 2]> = clear.map(|cell| cells[cell]).collect();
-    let (clear, clear_backs) = sum(&clear);
-    let usual = if clear > 0.0 {
-        clear_backs / clear
-    } else {
-        0.0
-    };
+    let usual = Cell::sum(clear.map(|cell| &cells[cell])).backs();
     let visible = |cell: usize| {
-        let [all, backs] = cells[cell];
         if is_hidden(cell) {
             0.0
         } else if is_beside_hidden(cell) {
-            ((all - backs) / (1.0 - usual)).clamp(0.0, all)
+            ((1.0 - cells[cell].backs()) / (1.0 - usual)).clamp(0.0, 1.0)
         } else {
-            all
+            1.0
         }
     };
-    let (whole, _) = sum(cells);
-    (0..cells.len()).map(visible).sum::<f64>() / whole
+    let visible = (0..cells.len()).map(|cell| cells[cell].all * visible(cell));
+    visible.sum::<f64>() / Cell::sum(cells).all
 }

@@ -26,7 +26,7 @@ impl Obstacles {
     pub(crate) fn new(mesh: &Mesh) -> Obstacles {
         let walls = Walls::new(mesh);
         Obstacles {
-            occluders: Occluders::of(&walls.polygons),
+            occluders: Occluders::of_walls(&walls),
             blockers: walls.polygons.iter().map(Blocker::new).collect(),
             walls,
         }

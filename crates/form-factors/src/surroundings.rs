@@ -4,12 +4,12 @@
 //! patch sees.
 
 use crate::ahead::{Ahead, Met};
-use crate::hidden::{Starts, by_cell, is_suspicious, visible_share};
+use crate::hidden::{Cell, Starts, by_cell, is_suspicious, visible_share};
 use crate::obstacles::Obstacles;
 use crate::random::Stream;
 use crate::target::{Points, Target, points};
 use crate::visible::{Shifts, coordinate, ratio, shifts};
-use radiosity_geometry::{DVec3, FaceId, Mesh, Patch, Ray};
+use radiosity_geometry::{DVec3, Mesh, Patch, Ray};
 use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
 use std::f32::consts::FRAC_PI_4;
 
@@ -48,8 +48,7 @@ struct Sums {
     all: [f64; LANES],
     backs: [f64; LANES],
     background: [f64; LANES],
-    /// Of each cell of the patch, as [`by_cell`] has them.
-    cells: Vec<[f64; 2]>,
+    cells: Vec<Cell>,
 }
 
 /// Looks around from the patch of this index.
@@ -68,7 +67,7 @@ pub(crate) fn look_around(mesh: &Mesh, obstacles: &Obstacles, index: usize) -> S
     let sums = look(FIRST_LOOK);
     let total = |lanes: &[f64; LANES]| lanes.iter().sum::<f64>();
     let all = total(&sums.all);
-    let visible = if is_suspicious(&sums.cells, total(&sums.backs) / all) {
+    let visible = if is_suspicious(&sums.cells) {
         visible_share(&look(CLOSE_LOOK).cells)
     } else {
         1.0
@@ -126,7 +125,7 @@ impl Kernel for Look<'_> {
             starts.push(Starts {
                 on_patch: [u.lanes(), v.lanes()],
                 weights: weight.lanes(),
-                backs: met.backs,
+                met,
             });
         }
         Sums {
@@ -201,7 +200,7 @@ fn sin_cos<S: Simd>(simd: S, x: S::F32) -> [S::F32; 2] {
     [x * sin, cos]
 }
 
-/// What rays from a patch meet first: of its wall and others in the same plane nothing is in front of it.
+/// What rays from a patch meet first.
 #[inline(always)]
 fn trace<S: Simd>(obstacles: &Obstacles, patch: &Patch, rays: &Rays<S>) -> Met {
     let occluders = &obstacles.occluders;
@@ -209,20 +208,15 @@ fn trace<S: Simd>(obstacles: &Obstacles, patch: &Patch, rays: &Rays<S>) -> Met {
     let from = rays.from.lanes();
     let [x, y, z] = &rays.direction;
     let along = [x.lanes(), y.lanes(), z.lanes()];
-    let mut met = Met {
-        backs: 0,
-        nothing: 0,
-    };
+    let mut met = Met::default();
     for lane in 0..LANES {
         let origin = DVec3::from_array(from.map(|axis| axis[lane]));
         let direction = DVec3::from_array(along.map(|axis| f64::from(axis[lane])));
         let ray = Ray::new(origin, direction);
-        let above_plane = occluders.plane_tolerance() / direction.dot(patch.normal);
-        let hit = occluders.closest_hit(&ray, above_plane, f64::INFINITY, Some(own));
+        let hit = occluders.first_from(own, &ray);
         met.nothing |= u8::from(hit.is_none()) << lane;
-        let is_bare = |wall: FaceId| obstacles.walls.bare[wall.index()];
-        let is_back = hit.is_some_and(|hit| !hit.front || is_bare(hit.face));
-        met.backs |= u8::from(is_back) << lane;
+        met.backs |= u8::from(hit.is_some_and(|hit| !hit.front)) << lane;
+        met.backed |= u8::from(hit.is_some_and(|hit| hit.backed)) << lane;
     }
     met
 }

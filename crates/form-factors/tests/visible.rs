@@ -39,6 +39,14 @@ fn cuboid(corner: DVec3, [x, y, z]: [f64; 3]) -> Vec<Surface> {
     ]
 }
 
+/// More walls than are tried in turn, below the floor.
+fn many_more() -> Vec<Surface> {
+    let below = |k: u32| DVec3::new(0.0, 0.0, -1.0 - f64::from(k));
+    (0..40)
+        .map(|k| surface(below(k), DVec3::X, DVec3::Y, 1))
+        .collect()
+}
+
 /// Cells are 1/8 of an edge; of those that an edge of the box cuts across, a part counts as seen.
 #[test]
 fn what_stands_on_a_patch_hides_what_is_under_it() {
@@ -56,6 +64,69 @@ fn what_stands_on_a_patch_hides_what_is_under_it() {
         "{partly}"
     );
     assert_eq!([covered, beside, far], [0.0, 1.0, 1.0]);
+}
+
+/// A box in a corner of a room: where its walls touch those of the room, these have fronts in the same
+/// place, and tell nothing.
+#[test]
+fn a_box_in_a_corner_hides_what_is_under_it() {
+    let walls = [
+        surface(DVec3::ZERO, 2.0 * DVec3::Z, 2.0 * DVec3::X, 1),
+        surface(DVec3::ZERO, 2.0 * DVec3::Y, 2.0 * DVec3::Z, 1),
+    ];
+    for others in [Vec::new(), many_more()] {
+        let size = [0.75, 1.0, 1.5];
+        let scene = [walls.to_vec(), cuboid(DVec3::ZERO, size), others].concat();
+        let [under, beside @ ..] = visible(scene);
+        // As above, along an edge of 1.
+        let chance = 2048f64.powf(0.25) / 2048.0;
+        assert!((under - 0.25).abs() <= 4.0 * chance, "{under}");
+        assert_eq!(beside, [1.0; 3]);
+    }
+}
+
+/// A room whose walls are made of two faces each: inside nothing is seen of backs, and nothing is hidden.
+#[test]
+fn walls_of_two_faces_show_their_fronts() {
+    let reversed = |surface: &Surface| match surface.shape {
+        Shape::Parallelogram {
+            corner,
+            edge_a,
+            edge_b,
+        } => Surface {
+            shape: Shape::Parallelogram {
+                corner: corner + edge_a,
+                edge_a: -edge_a,
+                edge_b,
+            },
+            ..surface.clone()
+        },
+        _ => unreachable!("walls are parallelograms"),
+    };
+    // Of a box, turned inside out.
+    let inside: Vec<Surface> = cuboid(DVec3::ZERO, [2.0, 2.0, 3.0])
+        .iter()
+        .map(reversed)
+        .collect();
+    let floor = surface(DVec3::ZERO, 2.0 * DVec3::X, 2.0 * DVec3::Y, 2);
+    let outside: Vec<Surface> = inside.iter().chain([&floor]).map(reversed).collect();
+    for others in [Vec::new(), many_more()] {
+        let mesh = subdivide(
+            &[vec![floor.clone()], inside.clone(), outside.clone(), others].concat(),
+            Divisions::uniform(1),
+        )
+        .unwrap();
+        let made = estimate(&mesh, Estimator::Accurate { tolerance: 1e-3 }, &|_| ());
+        let (within, without) = made.rows[..18].split_at(9);
+        for row in within {
+            assert_eq!((row.backs, row.background, row.visible), (0.0, 0.0, 1.0));
+            assert!((row.fronts - 1.0).abs() < 1e-3, "{row:?}");
+        }
+        // Those of the floor see the things below it.
+        for row in &without[..5] {
+            assert_eq!((row.fronts, row.background), (0.0, 1.0));
+        }
+    }
 }
 
 /// A plate with a gap below it: nothing can be seen but at its border.

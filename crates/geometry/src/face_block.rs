@@ -13,6 +13,8 @@ pub(crate) struct FaceBlock {
     corners: [[[f64; LANES]; 3]; 4],
     normal: [[f64; LANES]; 3],
     offset: [f64; LANES],
+    /// Faces of which neither side is a front, one bit per lane.
+    bare: u8,
     /// Whether all fourth corners repeat the third.
     triangles: bool,
 }
@@ -21,22 +23,23 @@ pub(crate) struct FaceBlock {
 pub(crate) struct BlockHits {
     /// One bit per lane.
     pub(crate) mask: u8,
-    /// Where the ray meets the fronts of faces.
+    /// Where the ray meets fronts.
     pub(crate) front: u8,
     /// The ray's parameters.
     pub(crate) t: [f64; LANES],
 }
 
 impl FaceBlock {
-    /// At most eight faces.
-    pub(crate) fn new<'a>(faces: impl IntoIterator<Item = &'a Occluder>) -> FaceBlock {
+    /// At most eight faces, and whether each is bare.
+    pub(crate) fn new<'a>(faces: impl IntoIterator<Item = (&'a Occluder, bool)>) -> FaceBlock {
         let mut block = FaceBlock {
             corners: [[[0.0; LANES]; 3]; 4],
             normal: [[0.0; LANES]; 3],
             offset: [0.0; LANES],
+            bare: 0,
             triangles: true,
         };
-        for (lane, face) in faces.into_iter().enumerate() {
+        for (lane, (face, bare)) in faces.into_iter().enumerate() {
             for axis in 0..3 {
                 for (corner, position) in face.corners.iter().enumerate() {
                     block.corners[corner][axis][lane] = position[axis];
@@ -44,6 +47,7 @@ impl FaceBlock {
                 block.normal[axis][lane] = face.normal[axis];
             }
             block.offset[lane] = face.offset;
+            block.bare |= u8::from(bare) << lane;
             block.triangles &= face.corners[2] == face.corners[3];
         }
         block
@@ -69,7 +73,7 @@ impl FaceBlock {
         mask &= t.less_or_equal(simd.splat_f64(to));
         BlockHits {
             mask,
-            front: approach.less(simd.splat_f64(0.0)),
+            front: approach.less(simd.splat_f64(0.0)) & !self.bare,
             t: t.lanes(),
         }
     }

@@ -4,10 +4,11 @@ use crate::bounds::Aabb;
 use crate::build::build;
 use crate::bvh::Bvh;
 use crate::face_block::FaceBlock;
-use crate::mesh::{FaceId, Mesh};
+use crate::mesh::{Face, FaceId, Mesh};
 use crate::polygon::Polygon;
 use crate::queries::{Blocked, Reach};
 use crate::ray::Ray;
+use crate::walls::Walls;
 use glam::DVec3;
 use radiosity_simd::dispatch;
 
@@ -38,8 +39,11 @@ pub struct Hit {
     pub t: f64,
     /// The face.
     pub face: FaceId,
-    /// Whether the ray meets the side that the normal points to.
+    /// Whether the ray meets a front: the side that the normal points to, unless the face is
+    /// [bare](crate::Face::is_bare).
     pub front: bool,
+    /// Of a front, whether a back lies in the same place.
+    pub backed: bool,
 }
 
 /// Rounding of coordinates, relative to the largest of them.
@@ -73,22 +77,28 @@ impl Occluders {
     /// Prepares all faces of a mesh.
     pub fn new(mesh: &Mesh) -> Occluders {
         let polygons: Vec<Polygon> = mesh.faces.iter().map(|face| face.polygon).collect();
-        Occluders::of(&polygons)
+        let bare: Vec<bool> = mesh.faces.iter().map(Face::is_bare).collect();
+        Occluders::of(&polygons, &bare)
     }
 
-    /// Prepares polygons; a [`FaceId`] is then the position among them.
-    pub fn of(polygons: &[Polygon]) -> Occluders {
-        let boxes = polygons.iter().map(Polygon::bounds);
-        let plane_tolerance = plane_tolerance(polygons);
+    /// Prepares walls; a [`FaceId`] is then a wall's.
+    pub fn of_walls(walls: &Walls) -> Occluders {
+        Occluders::of(&walls.polygons, &walls.bare)
+    }
+
+    fn of(polygons: &[Polygon], bare: &[bool]) -> Occluders {
+        let boxes: Vec<Aabb> = polygons.iter().map(Polygon::bounds).collect();
+        let plane_tolerance =
+            plane_tolerance(&boxes.iter().copied().fold(Aabb::EMPTY, Aabb::union));
         // A ray within the side of a flat box must find it.
-        let boxes: Vec<Aabb> = boxes.map(|b| b.grown(plane_tolerance)).collect();
+        let boxes: Vec<Aabb> = boxes.iter().map(|b| b.grown(plane_tolerance)).collect();
         let faces: Vec<Occluder> = polygons.iter().map(Occluder::new).collect();
         let tree = build(&boxes);
         Occluders {
             blocks: tree
                 .leaves
                 .iter()
-                .map(|leaf| FaceBlock::new(leaf.items().map(|item| &faces[item])))
+                .map(|leaf| FaceBlock::new(leaf.items().map(|item| (&faces[item], bare[item]))))
                 .collect(),
             faces,
             tree,
@@ -108,8 +118,9 @@ impl Occluders {
 
     /// The first face that a ray meets at a parameter in `from..=to`, other than `except`.
     ///
-    /// Name the face that the ray leaves as `except`: rounding may put the origin on either
-    /// side of it. Of two hits at the same parameter the face that comes first wins.
+    /// Where a front and a back lie in one place, in the same plane up to the rounding of
+    /// coordinates, the ray meets the front: walls made of two faces show their fronts to either
+    /// side. Else, of two hits at the same parameter the face that comes first wins.
     pub fn closest_hit(
         &self,
         ray: &Ray,
@@ -118,6 +129,19 @@ impl Occluders {
         except: Option<FaceId>,
     ) -> Option<Hit> {
         dispatch(self.reach(ray, from, to, except).closest_hit())
+    }
+
+    /// The first face that a ray from a point of a face meets. The face itself and others in its
+    /// plane are not met: rounding may put the point on either side of them.
+    pub fn first_from(&self, face: FaceId, ray: &Ray) -> Option<Hit> {
+        let from = self.in_plane(face, ray);
+        self.closest_hit(ray, from, f64::INFINITY, Some(face))
+    }
+
+    /// The length, in parameters of a ray, along which it is in the plane of a face that it
+    /// crosses there, up to the rounding of coordinates.
+    pub(crate) fn in_plane(&self, face: FaceId, ray: &Ray) -> f64 {
+        self.plane_tolerance / self.faces[face.index()].normal.dot(ray.direction).abs()
     }
 
     /// Whether a ray meets any face at a parameter in `from..=to`, other than `except`.
@@ -152,13 +176,9 @@ impl Occluders {
     }
 }
 
-/// The rounding of coordinates as large as those of some polygons.
-pub(crate) fn plane_tolerance(polygons: &[Polygon]) -> f64 {
-    let all = polygons
-        .iter()
-        .map(Polygon::bounds)
-        .fold(Aabb::EMPTY, Aabb::union);
-    RELATIVE_PLANE_TOLERANCE * all.min.abs().max(all.max.abs()).max_element()
+/// The rounding of coordinates as large as those of a box.
+pub(crate) fn plane_tolerance(bounds: &Aabb) -> f64 {
+    RELATIVE_PLANE_TOLERANCE * bounds.min.abs().max(bounds.max.abs()).max_element()
 }
 
 /// The ends of a segment in an order that does not depend on which one was named first.

@@ -21,7 +21,17 @@ pub(crate) struct Reach<'a> {
 /// [`Occluders::closest_hit`].
 pub(crate) struct ClosestHit<'a> {
     reach: Reach<'a>,
-    closest: Option<Hit>,
+    front: Option<Nearest>,
+    back: Option<Nearest>,
+    /// What is met lies no farther: what does is behind some face, and not in its plane.
+    horizon: f64,
+}
+
+/// The nearest of some faces.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+struct Nearest {
+    t: f64,
+    face: FaceId,
 }
 
 /// [`Occluders::any_hit`].
@@ -46,7 +56,9 @@ impl<'a> Reach<'a> {
     pub(crate) fn closest_hit(self) -> ClosestHit<'a> {
         ClosestHit {
             reach: self,
-            closest: None,
+            front: None,
+            back: None,
+            horizon: self.to,
         }
     }
 
@@ -71,7 +83,14 @@ impl Kernel for ClosestHit<'_> {
     fn run<S: Simd>(mut self, simd: S) -> Option<Hit> {
         let reach = self.reach;
         reach.search(simd, &mut self);
-        self.closest
+        let within = |nearest: &Nearest| nearest.t <= self.horizon;
+        let [front, back] = [self.front, self.back].map(|side| side.filter(within));
+        front.or(back).map(|Nearest { t, face }| Hit {
+            t,
+            face,
+            front: front.is_some(),
+            backed: front.is_some() && back.is_some(),
+        })
     }
 }
 
@@ -89,16 +108,20 @@ impl Visitor for ClosestHit<'_> {
         let hits = block.hits(simd, ray, from, *limit);
         for lane in bits(hits.mask) {
             let (t, face) = (hits.t[lane], occluders.face(leaf, lane));
-            let first = |best: Hit| t < best.t || t == best.t && face < best.face;
-            if Some(face) != except && self.closest.is_none_or(first) {
-                *limit = t;
-                self.closest = Some(Hit {
-                    t,
-                    face,
-                    front: hits.front >> lane & 1 != 0,
-                });
+            if Some(face) == except {
+                continue;
             }
+            let found = Nearest { t, face };
+            let side = match hits.front >> lane & 1 {
+                0 => &mut self.back,
+                _ => &mut self.front,
+            };
+            if side.is_none_or(|nearest| found < nearest) {
+                *side = Some(found);
+            }
+            self.horizon = self.horizon.min(t + occluders.in_plane(face, ray));
         }
+        *limit = self.horizon;
         ControlFlow::Continue(())
     }
 }

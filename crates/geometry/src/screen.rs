@@ -8,8 +8,11 @@
 
 mod face;
 
+use crate::bounds::Aabb;
 use crate::camera::Camera;
 use crate::mesh::{FaceId, Mesh};
+use crate::occluders::plane_tolerance;
+use face::Viewed;
 pub use face::{Linear, SeenFace};
 use glam::DVec2;
 use radiosity_simd::{Float, LANES, Simd};
@@ -67,9 +70,14 @@ impl Screen {
         (width, height): (u32, u32),
         reach: f64,
     ) -> Screen {
-        let film = camera.film(width, height);
+        let everything = mesh.bounds().union(Aabb::around([camera.position()]));
+        let viewed = Viewed {
+            camera,
+            film: camera.film(width, height),
+            tolerance: plane_tolerance(&everything),
+        };
         let ids = (0..mesh.faces.len() as u32).map(FaceId);
-        let faces = ids.filter_map(|id| SeenFace::new(id, &mesh.faces[id.index()], camera, &film));
+        let faces = ids.filter_map(|id| SeenFace::new(id, &mesh.faces[id.index()], &viewed));
         let is_seen = |face: &SeenFace| face.front || backs == Backs::Black;
         let faces: Vec<SeenFace> = faces.filter(is_seen).collect();
         let (across, down) = (width.div_ceil(TILE), height.div_ceil(TILE));
@@ -110,8 +118,9 @@ impl Screen {
     }
 
     /// Which faces the samples of the pixel in column `x` and row `y` show, into `seen`: the
-    /// nearest of those that are not too near, and of two at the same depth the first. Returns whether
-    /// other places in the pixel may show other faces.
+    /// nearest of those that are not too near. Of a front and a back in one plane they show the front,
+    /// else of two at the same depth the first. Returns whether other places in the pixel may show
+    /// other faces.
     #[inline(always)]
     pub fn look<S: Simd>(
         &self,

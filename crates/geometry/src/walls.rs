@@ -1,6 +1,7 @@
 //! Faces that lie side by side in one plane, as the few large polygons that they make: fewer
 //! things stand in the way.
 
+use crate::bounds::Aabb;
 use crate::mesh::{Face, FaceId, Mesh};
 use crate::occluders::plane_tolerance;
 use crate::polygon::Polygon;
@@ -49,11 +50,13 @@ struct Joining {
 
 impl Joining {
     fn new(polygons: Vec<Polygon>, bare: Vec<bool>) -> Joining {
+        let boxes = polygons.iter().map(Polygon::bounds);
+        let bounds = boxes.fold(Aabb::EMPTY, Aabb::union);
         let mut joining = Joining {
             part_of: (0..polygons.len()).collect(),
             bare,
             left_of: HashMap::new(),
-            tolerance: plane_tolerance(&polygons),
+            tolerance: plane_tolerance(&bounds),
             polygons: polygons.into_iter().map(Some).collect(),
         };
         for k in 0..joining.polygons.len() {

@@ -165,6 +165,38 @@ fn no_sample_passes_between_faces() {
     }
 }
 
+/// Walls made of two faces each, and a camera far from them: backs never show through.
+#[test]
+fn fronts_hide_backs_in_their_planes() {
+    let [a, b, c] = [[2.3, 0.4, -0.7], [-0.3, 1.9, 1.1], [0.2, -0.9, 1.7]].map(DVec3::from);
+    let wall = |[corner, edge_a, edge_b]: [DVec3; 3]| {
+        let quad = [
+            corner,
+            corner + edge_a,
+            corner + edge_a + edge_b,
+            corner + edge_b,
+        ];
+        [[2, 1, 0, 3], [0, 1, 2, 3]].map(|order| Shape::Quad(order.map(|k| quad[k])))
+    };
+    let corner = DVec3::new(70.1, -31.3, 12.7);
+    let mesh = surfaces_of(
+        [[corner, a, b], [corner, b, c], [corner, c, a]]
+            .map(wall)
+            .concat(),
+    );
+    let middle = corner + 0.5 * (a + b + c);
+    for distance in [1.0, 30.0, 3e4] {
+        let from = DVec3::new(0.5, 0.8, 0.6).normalize();
+        let (position, up) = (middle + distance * from, DVec3::Y);
+        let angle = (8.0 / distance).atan().min(1.0).to_degrees();
+        let camera = Camera::new(position, -from, up, angle, 0.0).unwrap();
+        let shown = shown(&screen_of(&mesh, &camera));
+        let faces = shown.iter().flatten();
+        assert!(faces.clone().count() > shown.len() / 20, "{distance}");
+        assert!(faces.copied().all(|(_, front)| front), "{distance}");
+    }
+}
+
 /// Whatever lies in the plane of the camera is seen edge-on: not at all.
 #[test]
 fn faces_seen_edge_on_do_no_harm() {

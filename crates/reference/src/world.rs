@@ -2,7 +2,7 @@
 
 use crate::Rgb;
 use crate::emitters::Emitters;
-use radiosity_geometry::{DVec3, FaceId, Mesh, Occluders, Ray};
+use radiosity_geometry::{DVec3, FaceId, Hit, Mesh, Occluders, Ray};
 use radiosity_scene::Scene;
 
 /// Faces with their materials, ready for paths.
@@ -49,19 +49,18 @@ impl World {
     /// The first front that a ray from a face meets, and where; `None` for backs and for the
     /// background.
     pub(crate) fn next_front(&self, from: FaceId, ray: &Ray) -> Option<(FaceId, DVec3)> {
-        self.front(ray, 0.0, Some(from))
+        World::front(self.occluders.first_from(from, ray), ray)
     }
 
     /// The first front that a ray from anywhere meets at a parameter from `near` on.
     pub(crate) fn first_front(&self, ray: &Ray, near: f64) -> Option<(FaceId, DVec3)> {
-        self.front(ray, near, None)
+        let hit = self.occluders.closest_hit(ray, near, f64::INFINITY, None);
+        World::front(hit, ray)
     }
 
-    fn front(&self, ray: &Ray, near: f64, except: Option<FaceId>) -> Option<(FaceId, DVec3)> {
-        let hit = self
-            .occluders
-            .closest_hit(ray, near, f64::INFINITY, except)?;
-        hit.front.then(|| (hit.face, ray.at(hit.t)))
+    fn front(hit: Option<Hit>, ray: &Ray) -> Option<(FaceId, DVec3)> {
+        let hit = hit.filter(|hit| hit.front)?;
+        Some((hit.face, ray.at(hit.t)))
     }
 
     /// Whether nothing stands between two points on faces.

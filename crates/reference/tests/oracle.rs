@@ -40,6 +40,29 @@ fn the_furnace_is_exact() {
     assert!(worst < 4.5, "{worst}");
 }
 
+/// The same room with walls made of two faces each, as thin as can be.
+#[test]
+fn walls_of_two_faces_let_nothing_through() {
+    let text = std::fs::read_to_string(in_checkout("scenes/furnace.toml")).unwrap();
+    let (_, walls) = text.split_once("[[surfaces]]").unwrap();
+    let reversed = walls
+        .replace("name = \"", "name = \"outside ")
+        .replace("edge_a", "edge")
+        .replace("edge_b", "edge_a")
+        .replace("edge =", "edge_b =");
+    let both = format!("{text}\n[[surfaces]]{reversed}");
+    let scene = parse(Path::new("both.toml"), &both).unwrap();
+    let mesh = cut(&scene, 1);
+    let cells = means(&scene, &mesh, 20_000, 2);
+    let (inside, outside) = cells.split_at(6);
+    for cell in inside {
+        let worst = deviations(cell, [1.25, 2.0, 5.0]).map(f64::abs);
+        // As above, of 18.
+        assert!(worst.iter().all(|&deviation| deviation < 4.5), "{worst:?}");
+    }
+    assert!(outside.iter().all(|cell| cell.radiosity == [1.0; 3]));
+}
+
 /// A black receiver would show nothing; with reflectance rho it shows rho F E to first order,
 /// and the emitter is black, so to all orders. F of opposed unit squares at distance 1.
 #[test]

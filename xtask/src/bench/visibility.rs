@@ -27,7 +27,7 @@ pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
     let text = blob::vs3(TRIANGLES).map_err(Error::Input)?;
     let (_, mesh) = generated("blob.vs3", &text)?;
     let walls = Walls::new(&mesh);
-    let occluders = Occluders::of(&walls.polygons);
+    let occluders = Occluders::of_walls(&walls);
     let bundles = bundles(&mesh, &walls);
     let (seconds, blocked) = ours(&occluders, &bundles);
     let segments = (LANES * BUNDLES) as f64;

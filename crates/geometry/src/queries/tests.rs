@@ -62,6 +62,7 @@ fn scalar_hits(occluders: &Occluders, ray: &Ray, except: Option<FaceId>) -> Vec<
             t: -face.height(ray.origin) / approach,
             face: FaceId(index as u32),
             front: approach < 0.0,
+            backed: false,
         };
         let counts = hit.t >= 0.0 && Some(hit.face) != except && ray.pierces(&face.corners);
         counts.then_some(hit)
@@ -71,9 +72,19 @@ fn scalar_hits(occluders: &Occluders, ray: &Ray, except: Option<FaceId>) -> Vec<
 
 fn check_ray(occluders: &Occluders, ray: &Ray, except: Option<FaceId>) {
     let hits = scalar_hits(occluders, ray, except);
-    // Zeros are equal whatever their sign; the first of equals wins.
-    let nearer = |best: Hit, hit: &Hit| if hit.t < best.t { *hit } else { best };
-    let closest = hits.first().map(|&first| hits.iter().fold(first, nearer));
+    let horizon = |hit: &Hit| hit.t + occluders.in_plane(hit.face, ray);
+    let horizon = hits.iter().map(horizon).fold(f64::INFINITY, f64::min);
+    let nearest = |front: bool| {
+        let side = hits
+            .iter()
+            .filter(|hit| hit.front == front && hit.t <= horizon);
+        // Zeros are equal whatever their sign; the first of equals wins.
+        side.copied()
+            .reduce(|best, hit| if hit.t < best.t { hit } else { best })
+    };
+    let (front, back) = (nearest(true), nearest(false));
+    let backed = back.is_some();
+    let closest = front.map(|hit| Hit { backed, ..hit }).or(back);
     for set in InstructionSet::available() {
         let reach = occluders.reach(ray, 0.0, f64::INFINITY, except);
         let found = set.run(reach.closest_hit());

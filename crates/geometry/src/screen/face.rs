@@ -29,6 +29,15 @@ pub struct SeenFace {
     pub(super) edges: [Linear; 4],
 }
 
+/// How a camera looks at faces.
+pub(super) struct Viewed<'a> {
+    pub(super) camera: &'a Camera,
+    /// The directions of the film.
+    pub(super) film: [DVec3; 3],
+    /// How far backs are set back, so that fronts in the same plane hide them.
+    pub(super) tolerance: f64,
+}
+
 impl Linear {
     /// The product of a vector with the directions of the film.
     fn of(vector: DVec3, film: &[DVec3; 3]) -> Linear {
@@ -58,17 +67,15 @@ impl Linear {
 }
 
 impl SeenFace {
-    pub(super) fn new(
-        id: FaceId,
-        face: &Face,
-        camera: &Camera,
-        film: &[DVec3; 3],
-    ) -> Option<SeenFace> {
+    pub(super) fn new(id: FaceId, face: &Face, viewed: &Viewed<'_>) -> Option<SeenFace> {
+        let Viewed { camera, film, .. } = viewed;
         let corners = face.polygon.padded_corners();
         let [a, b, c, d] = corners.map(|corner| corner - camera.position());
         let height = face.normal.dot(a);
-        let depth = face.normal / height;
         let side = height.signum();
+        let front = height < 0.0;
+        let set_back = if front { 0.0 } else { viewed.tolerance };
+        let depth = face.normal / (height + set_back);
         let edge = |from: DVec3, to: DVec3| Linear::of(side * from.cross(to), film);
         let (along_u, along_v) = match face.grid {
             Grid::Quad { .. } => (b - a, d - a),
@@ -79,7 +86,7 @@ impl SeenFace {
         let is_affine = face.polygon.is_triangle() || face.polygon.is_parallelogram();
         let seen = SeenFace {
             id,
-            front: height < 0.0,
+            front,
             inverse_depth: Linear::of(depth, film),
             coordinates: is_affine.then(|| {
                 [
