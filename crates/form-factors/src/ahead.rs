@@ -3,20 +3,19 @@
 use crate::blocker::{EDGES, Plane};
 use crate::obstacles::Obstacles;
 use crate::target::Points;
-use radiosity_geometry::{DVec3, FaceId, Patch};
+use radiosity_geometry::{DVec3, FaceId, Patch, Polygon};
 use radiosity_simd::{Float, Simd};
 
 /// So many walls are tried in turn; more are found by a tree.
 const FASTER_THAN_TREE: usize = 32;
-/// How far outwards edges are moved, in units of the largest distance: what single precision rounds off
-/// products of distances and speeds. Else a ray in millions slips through between two walls.
+/// What single precision rounds off products of distances and speeds, in units of the largest distance
+/// between a patch and a wall. Were edges not moved outwards by it, a ray in millions would slip through between two walls.
 const MARGIN: f32 = 8.0 * f32::EPSILON;
 
 /// The walls in front of a patch.
 pub(crate) struct Ahead {
     centroid: DVec3,
     walls: Vec<Wall>,
-    margin: f32,
 }
 
 struct Wall {
@@ -26,6 +25,8 @@ struct Wall {
     widths: Option<[f32; 2]>,
     /// Neither side is a front.
     bare: bool,
+    /// How far outwards edges are moved, and backs back: what single precision rounds off.
+    margin: f32,
 }
 
 /// A plane relative to the patch's centroid: what is near keeps its digits.
@@ -54,30 +55,29 @@ impl Ahead {
         let plane = Plane::through(patch.centroid, patch.normal);
         let tolerance = obstacles.occluders.plane_tolerance();
         let own = obstacles.wall(patch);
+        let radius = reach(patch, &patch.polygon);
         let mut ahead = Ahead {
             centroid: patch.centroid,
             walls: Vec::with_capacity(polygons.len()),
-            margin: 0.0,
         };
         for (k, polygon) in polygons.iter().enumerate() {
             let id = FaceId(k as u32);
-            let corners = polygon.corners().iter();
-            if id == own || corners.clone().all(|&c| plane.height(c) <= tolerance) {
+            let mut corners = polygon.corners().iter();
+            if id == own || corners.all(|&corner| plane.height(corner) <= tolerance) {
                 continue;
             }
             let planes = obstacles.blocker(id).planes;
             let [plane, edges @ ..] = planes.map(|plane| LocalPlane::new(plane, patch.centroid));
             let width = |k: usize| edges[k].height + edges[k + 2].height;
             let widths = polygon.is_parallelogram().then(|| [width(0), width(1)]);
+            let farthest = reach(patch, polygon) + radius;
             ahead.walls.push(Wall {
                 plane,
                 edges,
                 widths,
                 bare: obstacles.walls.bare[k],
+                margin: MARGIN * farthest as f32,
             });
-            let distance = |&corner: &DVec3| corner.distance(patch.centroid) as f32;
-            let farthest = corners.map(distance).fold(0.0, f32::max);
-            ahead.margin = ahead.margin.max(MARGIN * farthest);
         }
         Some(ahead)
     }
@@ -99,7 +99,7 @@ impl Ahead {
             simd.narrow(from.y - simd.splat_f64(self.centroid.y)),
             simd.narrow(from.z - simd.splat_f64(self.centroid.z)),
         ];
-        let (zero, outside) = (simd.splat_f32(0.0), simd.splat_f32(-self.margin));
+        let zero = simd.splat_f32(0.0);
         let nowhere = simd.splat_f32(f32::INFINITY);
         let mut front = nowhere;
         // The least and the largest distance that the nearest back may have.
@@ -109,8 +109,9 @@ impl Ahead {
             let rise = wall.plane.rise(simd, direction);
             let (distance, speed) = (height.max(-height), rise.max(-rise));
             let inside = wall.inside(simd, (from, distance), (direction, speed));
-            let (at, rounding) = (distance / speed, simd.splat_f32(self.margin) / speed);
-            let at = inside.if_less(outside, nowhere, at);
+            let margin = simd.splat_f32(wall.margin);
+            let (at, rounding) = (distance / speed, margin / speed);
+            let at = inside.if_less(-margin, nowhere, at);
             let at = (height * rise).if_less(zero, at, nowhere);
             let (at_front, at_back) = match wall.bare {
                 true => (nowhere, at),
@@ -131,6 +132,12 @@ impl Ahead {
             backed: fronts & !backs & back_from.less_or_equal(front),
         }
     }
+}
+
+/// How far a polygon reaches from a patch's centroid.
+fn reach(patch: &Patch, polygon: &Polygon) -> f64 {
+    let distance = |corner: &DVec3| corner.distance(patch.centroid);
+    polygon.corners().iter().map(distance).fold(0.0, f64::max)
 }
 
 impl Wall {
