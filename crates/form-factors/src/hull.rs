@@ -16,9 +16,8 @@ struct Planes<F> {
     offset: F,
     /// The height up to which a corner counts as in the plane, times the length of the normal.
     tolerance: F,
-    /// Where the hull is above, and where it is below.
-    above: u8,
-    below: u8,
+    /// Which have all of the hull above them.
+    bounds: u8,
 }
 
 type Corners = [DVec3; 4];
@@ -45,16 +44,16 @@ impl<F: Float<f64>> Hull<F> {
     pub(crate) fn is_clear_of<S: Simd<F64 = F>>(&self, simd: S, blocker: &Blocker) -> bool {
         let mut apart = 0;
         for planes in &self.0 {
-            let (mut above, mut below) = (planes.below, planes.above);
+            let mut below = planes.bounds;
             for corner in &blocker.corners {
-                if above | below == 0 {
+                if below == 0 {
                     break;
                 }
-                let height = planes.heights(simd, *corner);
-                above &= (-planes.tolerance).less_or_equal(height);
-                below &= height.less_or_equal(planes.tolerance);
+                below &= planes
+                    .heights(simd, *corner)
+                    .less_or_equal(planes.tolerance);
             }
-            apart |= above | below;
+            apart |= below;
         }
         apart != 0
     }
@@ -98,8 +97,7 @@ impl<F: Float<f64>> Planes<F> {
             normal,
             offset,
             tolerance: simd.splat_f64(tolerance) * length,
-            above: 0,
-            below: 0,
+            bounds: 0,
         };
         let mut lowest = simd.splat_f64(0.0);
         let mut highest = lowest;
@@ -109,8 +107,15 @@ impl<F: Float<f64>> Planes<F> {
             highest = highest.max(height);
         }
         // Where edges have no length, nothing is to either side.
-        planes.above = (-planes.tolerance).less_or_equal(lowest) & planes.tolerance.less(highest);
-        planes.below = highest.less_or_equal(planes.tolerance) & lowest.less(-planes.tolerance);
+        let above = (-planes.tolerance).less_or_equal(lowest) & planes.tolerance.less(highest);
+        let below = highest.less_or_equal(planes.tolerance) & lowest.less(-planes.tolerance);
+        planes.normal = [
+            (-x).select(below, x),
+            (-y).select(below, y),
+            (-z).select(below, z),
+        ];
+        planes.offset = (-offset).select(below, offset);
+        planes.bounds = above | below;
         planes
     }
 

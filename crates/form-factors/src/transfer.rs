@@ -48,24 +48,25 @@ impl Kernel for Transfer<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Lanes<f32> {
         let (from, lane) = self.from;
-        let apart = Apart::of(simd, (from, lane), self.to);
+        let distance = Distance::of(simd, (from, lane), self.to);
         let blocked = self.blocked;
         // Whether few points do is a matter of each pair, whichever other pairs are summed with it.
-        let few_do = apart.far & !blocked.iter().fold(0, |some, &lanes| some | lanes);
+        let few_do = distance.far & !blocked.iter().fold(0, |some, &lanes| some | lanes);
         let few = match few_do {
             0 => simd.splat_f32(0.0),
-            _ => {
-                find_sources(simd, (&from.stand_ins, lane), self.to, self.sources);
-                self.pairs(&self.to.stand_ins, &[])
-                    .sum::<S, false, true>(simd)
-            }
+            _ => by_few(simd, (from, lane), self.to, self.sources),
         };
         if few_do == !0 {
             return few.lanes();
         }
         find_sources(simd, (&from.points, lane), self.to, self.sources);
-        let pairs = self.pairs(&self.to.points, blocked);
-        let all = match (blocked.is_empty(), apart.never_touch) {
+        let pairs = Pairs {
+            plane: Plane::of(from, lane),
+            sources: self.sources,
+            targets: &self.to.points,
+            blocked,
+        };
+        let all = match (blocked.is_empty(), distance.never_touch) {
             (true, true) => pairs.sum::<S, false, true>(simd),
             (true, false) => pairs.sum::<S, false, false>(simd),
             (false, true) => pairs.sum::<S, true, true>(simd),
@@ -75,42 +76,41 @@ impl Kernel for Transfer<'_> {
     }
 }
 
-impl Transfer<'_> {
-    /// Of the sources and some of the others' points.
-    fn pairs<'b>(&'b self, targets: &'b [Point<f32>], blocked: &'b [u8]) -> Pairs<'b> {
-        let (from, lane) = self.from;
-        Pairs {
-            plane: Plane::of(from, lane),
-            sources: self.sources,
-            targets,
-            blocked,
-        }
-    }
-}
-
 impl Kernel for FarTransfer<'_> {
     type Output = Option<[Lanes<f32>; LANES]>;
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Option<[Lanes<f32>; LANES]> {
         let (from, lanes) = self.from;
-        let mut values = [[0.0; LANES]; LANES];
         for lane in lanes.clone() {
-            let apart = Apart::of(simd, (from, lane), self.to);
-            if apart.far != !0 {
+            if Distance::of(simd, (from, lane), self.to).far != !0 {
                 return None;
             }
-            find_sources(simd, (&from.stand_ins, lane), self.to, self.sources);
-            let pairs = Pairs {
-                plane: Plane::of(from, lane),
-                sources: self.sources,
-                targets: &self.to.stand_ins,
-                blocked: &[],
-            };
-            values[lane] = pairs.sum::<S, false, true>(simd).lanes();
+        }
+        let mut values = [[0.0; LANES]; LANES];
+        for lane in lanes.clone() {
+            values[lane] = by_few(simd, (from, lane), self.to, self.sources).lanes();
         }
         Some(values)
     }
+}
+
+/// The sums over the few points that stand for all of a patch and of each of the others.
+#[inline(always)]
+fn by_few<S: Simd>(
+    simd: S,
+    (from, lane): (&Local, usize),
+    to: &Local,
+    sources: &mut Vec<Source>,
+) -> S::F32 {
+    find_sources(simd, (&from.stand_ins, lane), to, sources);
+    let pairs = Pairs {
+        plane: Plane::of(from, lane),
+        sources,
+        targets: &to.stand_ins,
+        blocked: &[],
+    };
+    pairs.sum::<S, false, true>(simd)
 }
 
 /// The plane of a patch: where `normal * x = offset`.
@@ -148,7 +148,7 @@ fn load<S: Simd>(simd: S, [x, y, z]: &[Lanes<f32>; 3]) -> [S::F32; 3] {
 }
 
 /// How far a patch is from each of eight others.
-struct Apart {
+struct Distance {
     /// No point of one coincides with one of another.
     never_touch: bool,
     /// Which are so far that few points can stand for all, and all of them lie on one side of the plane
@@ -156,9 +156,9 @@ struct Apart {
     far: u8,
 }
 
-impl Apart {
+impl Distance {
     #[inline(always)]
-    fn of<S: Simd>(simd: S, (from, lane): (&Local, usize), to: &Local) -> Apart {
+    fn of<S: Simd>(simd: S, (from, lane): (&Local, usize), to: &Local) -> Distance {
         let [from_x, from_y, from_z] = at(&from.centroid, lane);
         let [x, y, z] = load(simd, &to.centroid);
         let (x, y, z) = (
@@ -178,7 +178,7 @@ impl Apart {
         let mut far = (near * near).less(squared);
         far &= radius_to.less(height_to.max(-height_to));
         far &= radius_from.less(height_from.max(-height_from));
-        Apart {
+        Distance {
             never_touch: (touching * touching).less(squared) == !0,
             far,
         }

@@ -237,9 +237,12 @@ fn meet<S: Simd>(simd: S, sides: [S::F32; 6], origin: [S::F32; 3], inverse: [S::
 fn bytes(all: u64) -> impl Iterator<Item = (usize, u8)> {
     let mut rest = all;
     std::iter::from_fn(move || {
+        if rest == 0 {
+            return None;
+        }
         let position = rest.trailing_zeros() as usize / 8;
-        let byte = (rest >> (8 * position.min(LANES - 1))) as u8;
-        rest &= !(0xff << (8 * position.min(LANES - 1)));
-        (position < LANES).then_some((position, byte))
+        let byte = (rest >> (8 * position)) as u8;
+        rest ^= u64::from(byte) << (8 * position);
+        Some((position, byte))
     })
 }
