@@ -1,6 +1,6 @@
 //! The few walls in front of a patch, and which of them rays from it meet first.
 
-use crate::blocker::{EDGES, Plane};
+use crate::blocker::{Blocker, EDGES, Plane};
 use crate::obstacles::Obstacles;
 use crate::target::Points;
 use radiosity_geometry::{DVec3, FaceId, Patch, Polygon};
@@ -25,7 +25,9 @@ struct Wall {
     widths: Option<[f32; 2]>,
     /// Neither side is a front.
     bare: bool,
-    /// How far outwards edges are moved, and backs back: what single precision rounds off.
+    /// It is made of two faces, each the reverse of the other.
+    two_sided: bool,
+    /// How far outwards edges are moved.
     margin: f32,
 }
 
@@ -41,17 +43,37 @@ struct LocalPlane {
 pub(crate) struct Met {
     pub(crate) backs: u8,
     pub(crate) nothing: u8,
-    /// Fronts that have backs in the same place.
+    /// Fronts that have backs in the same place, which are not their own reverse.
     pub(crate) backed: u8,
+}
+
+/// The planes of walls, unless there are too many. Of walls in one plane they are the same to the bit, but
+/// for the side that the walls face: rays then meet these at the same distance.
+pub(crate) fn planes_of_few(walls: &[Blocker], tolerance: f64) -> Option<Vec<Plane>> {
+    if walls.len() > FASTER_THAN_TREE {
+        return None;
+    }
+    let mut planes: Vec<Plane> = Vec::with_capacity(walls.len());
+    for wall in walls {
+        let [own, ..] = wall.planes;
+        let is_in = |plane: &&Plane| {
+            let mut corners = wall.corners.iter();
+            corners.all(|&corner| plane.height(corner).abs() <= tolerance)
+        };
+        planes.push(match planes.iter().find(is_in) {
+            Some(plane) if plane.normal.dot(own.normal) < 0.0 => plane.reversed(),
+            Some(plane) => *plane,
+            None => own,
+        });
+    }
+    Some(planes)
 }
 
 impl Ahead {
     /// Nothing if there are too many walls in the scene.
     pub(crate) fn of(patch: &Patch, obstacles: &Obstacles) -> Option<Ahead> {
         let polygons = &obstacles.walls.polygons;
-        if polygons.len() > FASTER_THAN_TREE {
-            return None;
-        }
+        let planes_of_walls = obstacles.planes.as_ref()?;
         let plane = Plane::through(patch.centroid, patch.normal);
         let tolerance = obstacles.occluders.plane_tolerance();
         let own = obstacles.wall(patch);
@@ -67,15 +89,16 @@ impl Ahead {
                 continue;
             }
             let planes = obstacles.blocker(id).planes;
-            let [plane, edges @ ..] = planes.map(|plane| LocalPlane::new(plane, patch.centroid));
+            let [_, edges @ ..] = planes.map(|plane| LocalPlane::new(plane, patch.centroid));
             let width = |k: usize| edges[k].height + edges[k + 2].height;
             let widths = polygon.is_parallelogram().then(|| [width(0), width(1)]);
             let farthest = reach(patch, polygon) + radius;
             ahead.walls.push(Wall {
-                plane,
+                plane: LocalPlane::new(planes_of_walls[k], patch.centroid),
                 edges,
                 widths,
                 bare: obstacles.walls.bare[k],
+                two_sided: obstacles.two_sided[k],
                 margin: MARGIN * farthest as f32,
             });
         }
@@ -85,8 +108,7 @@ impl Ahead {
     /// What rays from points of the patch, in directions of unit length, meet first.
     ///
     /// A ray meets a wall if it comes nearer to its plane, and if where it crosses that it is inside of
-    /// all edges. Where a front and a back lie in one place, up to rounding, it meets the front, as
-    /// [`Occluders::closest_hit`](radiosity_geometry::Occluders::closest_hit) does.
+    /// all edges. Where a front and a back lie in one plane, it meets the front, as [`Occluders::closest_hit`](radiosity_geometry::Occluders::closest_hit) does.
     #[inline(always)]
     pub(crate) fn meet<S: Simd>(
         &self,
@@ -101,17 +123,14 @@ impl Ahead {
         ];
         let zero = simd.splat_f32(0.0);
         let nowhere = simd.splat_f32(f32::INFINITY);
-        let mut front = nowhere;
-        // The least and the largest distance that the nearest back may have.
-        let (mut back_from, mut back_to) = (nowhere, nowhere);
+        let (mut front, mut one_sided, mut back) = (nowhere, nowhere, nowhere);
         for wall in &self.walls {
             let height = wall.plane.height(simd, from);
             let rise = wall.plane.rise(simd, direction);
             let (distance, speed) = (height.max(-height), rise.max(-rise));
             let inside = wall.inside(simd, (from, distance), (direction, speed));
-            let margin = simd.splat_f32(wall.margin);
-            let (at, rounding) = (distance / speed, margin / speed);
-            let at = inside.if_less(-margin, nowhere, at);
+            let outside = simd.splat_f32(-wall.margin);
+            let at = inside.if_less(outside, nowhere, distance / speed);
             let at = (height * rise).if_less(zero, at, nowhere);
             let (at_front, at_back) = match wall.bare {
                 true => (nowhere, at),
@@ -120,16 +139,18 @@ impl Ahead {
                     height.if_less(zero, at, nowhere),
                 ),
             };
-            front = at_front.min(front);
-            // Nowhere less infinity is no number: the least of it and another is the other.
-            back_from = (at_back - rounding).min(back_from);
-            back_to = (at_back + rounding).min(back_to);
+            front = front.min(at_front);
+            back = back.min(at_back);
+            if !wall.two_sided {
+                one_sided = one_sided.min(at_front);
+            }
         }
-        let (fronts, backs) = (front.less(nowhere), back_to.less(front));
+        let (fronts, backs) = (front.less(nowhere), back.less(front));
+        let both = fronts & !backs & back.less_or_equal(front);
         Met {
             backs,
             nothing: !(fronts | backs),
-            backed: fronts & !backs & back_from.less_or_equal(front),
+            backed: both & one_sided.less_or_equal(front),
         }
     }
 }

@@ -45,6 +45,13 @@ impl Plane {
         }
     }
 
+    pub(crate) fn reversed(&self) -> Plane {
+        Plane {
+            normal: -self.normal,
+            offset: -self.offset,
+        }
+    }
+
     pub(crate) fn height(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.offset
     }

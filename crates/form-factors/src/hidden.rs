@@ -11,8 +11,8 @@ const SUSPICIOUS: f64 = 0.9;
 /// And a part of it, where they are more than this, and twice what they are in all cells.
 const PARTLY_SUSPICIOUS: f64 = 0.6;
 /// Cells of which fewer rays than this share tell something count as seen. In a corner under a tall box a
-/// quarter of them does.
-const ENOUGH: f64 = 0.125;
+/// quarter of them does, in a niche less.
+const ENOUGH: f64 = 1.0 / 16.0;
 
 /// Where on the patch eight rays started, the weight of each, and which of them met backs.
 pub(crate) struct Starts {
@@ -24,8 +24,8 @@ pub(crate) struct Starts {
 
 /// What rays from a part of a patch have met, by their weights.
 ///
-/// Fronts that have backs in the same place tell nothing: the walls of a room may be made of two faces
-/// each, and a box may stand against a wall, over a floor that is hidden.
+/// Fronts that have backs in the same place tell nothing, unless these are their own reverse: there may be
+/// a box against a wall, over a floor that is hidden, or another room behind it.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Cell {
     all: f64,

@@ -40,6 +40,7 @@ mod part;
 mod points;
 mod random;
 mod regular;
+mod reverse;
 mod samples;
 mod segments;
 mod shade;

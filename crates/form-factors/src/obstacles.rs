@@ -1,8 +1,10 @@
 //! *Classify*: what may stand between two parts of the scene, from the coarse to the fine.
 
-use crate::blocker::{Blocker, Effect};
+use crate::ahead::planes_of_few;
+use crate::blocker::{Blocker, Effect, Plane};
 use crate::hull::Hull;
 use crate::part::Part;
+use crate::reverse::have_reverse;
 use radiosity_geometry::{DVec3, FaceId, Mesh, Occluders, Patch, Walls};
 use radiosity_simd::{Kernel, Simd, dispatch};
 
@@ -10,6 +12,10 @@ use radiosity_simd::{Kernel, Simd, dispatch};
 pub(crate) struct Obstacles {
     pub(crate) walls: Walls,
     pub(crate) occluders: Occluders,
+    /// Of each wall, whether it is made of two faces in one place, each the reverse of the other.
+    pub(crate) two_sided: Vec<bool>,
+    /// Of each wall, unless there are many.
+    pub(crate) planes: Option<Vec<Plane>>,
     blockers: Vec<Blocker>,
 }
 
@@ -25,9 +31,14 @@ pub(crate) enum Between {
 impl Obstacles {
     pub(crate) fn new(mesh: &Mesh) -> Obstacles {
         let walls = Walls::new(mesh);
+        let occluders = Occluders::of_walls(&walls);
+        let blockers: Vec<Blocker> = walls.polygons.iter().map(Blocker::new).collect();
+        let tolerance = occluders.plane_tolerance();
         Obstacles {
-            occluders: Occluders::of_walls(&walls),
-            blockers: walls.polygons.iter().map(Blocker::new).collect(),
+            two_sided: have_reverse(mesh, &walls, tolerance),
+            planes: planes_of_few(&blockers, tolerance),
+            occluders,
+            blockers,
             walls,
         }
     }

@@ -9,7 +9,7 @@ use crate::obstacles::Obstacles;
 use crate::random::Stream;
 use crate::target::{Points, Target, points};
 use crate::visible::{Shifts, coordinate, ratio, shifts};
-use radiosity_geometry::{DVec3, Mesh, Patch, Ray};
+use radiosity_geometry::{DVec3, FaceId, Mesh, Patch, Ray};
 use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
 use std::f32::consts::FRAC_PI_4;
 
@@ -216,7 +216,9 @@ fn trace<S: Simd>(obstacles: &Obstacles, patch: &Patch, rays: &Rays<S>) -> Met {
         let hit = occluders.first_from(own, &ray);
         met.nothing |= u8::from(hit.is_none()) << lane;
         met.backs |= u8::from(hit.is_some_and(|hit| !hit.front)) << lane;
-        met.backed |= u8::from(hit.is_some_and(|hit| hit.backed)) << lane;
+        let is_two_sided = |wall: FaceId| obstacles.two_sided[wall.index()];
+        let is_backed = hit.is_some_and(|hit| hit.backed && !is_two_sided(hit.face));
+        met.backed |= u8::from(is_backed) << lane;
     }
     met
 }

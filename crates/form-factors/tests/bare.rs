@@ -59,17 +59,19 @@ fn they_hide_as_others_do_and_are_no_fronts() {
 
 #[test]
 fn among_many_walls_they_are_backs_too() {
-    // More walls than are tried in turn, all of them out of the way.
-    let one = Divisions::uniform(1);
-    let mut surfaces = vec![
-        square(1.0, 0.0, 1.0, one),
-        square(9.0, 0.1, 1.0, Divisions::Uncut),
-    ];
-    surfaces.extend((0..40).map(|k| square(1.0, -2.0 - f64::from(k), 1.0, one)));
-    let mesh = subdivide(&surfaces, one).unwrap();
-    let made = estimate(&mesh, ESTIMATORS[0], &|_| ());
-    // By the factor of parallel squares, less than a thousandth passes by.
-    assert!(made.rows[0].backs > 0.99, "{:?}", made.rows[0]);
+    for facing in [1.0, -1.0] {
+        // More walls than are tried in turn, all of them out of the way.
+        let one = Divisions::uniform(1);
+        let mut surfaces = vec![
+            square(1.0, 0.0, 1.0, one),
+            square(9.0, 0.1, facing, Divisions::Uncut),
+        ];
+        surfaces.extend((0..40).map(|k| square(1.0, -2.0 - f64::from(k), 1.0, one)));
+        let mesh = subdivide(&surfaces, one).unwrap();
+        let made = estimate(&mesh, ESTIMATORS[0], &|_| ());
+        // By the factor of parallel squares, less than a thousandth passes by.
+        assert!(made.rows[0].backs > 0.99, "{:?}", made.rows[0]);
+    }
 }
 
 #[test]

@@ -18,6 +18,10 @@ fn surface(corner: DVec3, edge_a: DVec3, edge_b: DVec3, divisions: u32) -> Surfa
 fn estimated(others: Vec<Surface>) -> FormFactors {
     let mut surfaces = vec![surface(DVec3::ZERO, 2.0 * DVec3::X, 2.0 * DVec3::Y, 2)];
     surfaces.extend(others);
+    made(surfaces)
+}
+
+fn made(surfaces: Vec<Surface>) -> FormFactors {
     let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
     estimate(&mesh, Estimator::Regular { points: 2 }, &|_| ())
 }
@@ -66,8 +70,7 @@ fn what_stands_on_a_patch_hides_what_is_under_it() {
     assert_eq!([covered, beside, far], [0.0, 1.0, 1.0]);
 }
 
-/// A box in a corner of a room: where its walls touch those of the room, these have fronts in the same
-/// place, and tell nothing.
+/// A box in a corner of a room: where it touches the walls, their fronts tell nothing.
 #[test]
 fn a_box_in_a_corner_hides_what_is_under_it() {
     let walls = [
@@ -85,47 +88,87 @@ fn a_box_in_a_corner_hides_what_is_under_it() {
     }
 }
 
-/// A room whose walls are made of two faces each: inside nothing is seen of backs, and nothing is hidden.
+/// A box between two pillars, in front of a wall, all of the same height.
+#[test]
+fn a_box_in_a_niche_hides_what_is_under_it() {
+    let floor = surface(DVec3::X, DVec3::X, 2.0 * DVec3::Y, 2);
+    let wall = surface(DVec3::ZERO, 2.0 * DVec3::Z, 3.0 * DVec3::X, 1);
+    let pillar = |x: f64| cuboid(DVec3::new(x, 0.0, 0.0), [1.0, 1.2, 1.5]);
+    let between = cuboid(DVec3::new(1.0, 0.0, 0.0), [1.0, 1.0, 1.5]);
+    for others in [Vec::new(), many_more()] {
+        let niche = [vec![floor.clone(), wall.clone()], pillar(0.0), pillar(2.0)].concat();
+        let made = made([niche, between.clone(), others].concat());
+        let visible: [f64; 4] = std::array::from_fn(|patch| made.rows[patch].visible);
+        // Under the box, and in front of it.
+        assert_eq!(visible, [0.0, 1.0, 0.0, 1.0]);
+    }
+}
+
+fn reversed(surface: &Surface) -> Surface {
+    let Shape::Parallelogram {
+        corner,
+        edge_a,
+        edge_b,
+    } = surface.shape
+    else {
+        unreachable!("all are parallelograms")
+    };
+    Surface {
+        shape: Shape::Parallelogram {
+            corner: corner + edge_a,
+            edge_a: -edge_a,
+            edge_b,
+        },
+        ..surface.clone()
+    }
+}
+
+/// A room of 2 x 2 x 3, the 2 x 2 patches of its floor first.
+fn room() -> Vec<Surface> {
+    let outside = cuboid(DVec3::ZERO, [2.0, 2.0, 3.0]);
+    let floor = surface(DVec3::ZERO, 2.0 * DVec3::X, 2.0 * DVec3::Y, 2);
+    [floor]
+        .into_iter()
+        .chain(outside.iter().map(reversed))
+        .collect()
+}
+
+/// A room whose walls are made of two faces each is as any other.
 #[test]
 fn walls_of_two_faces_show_their_fronts() {
-    let reversed = |surface: &Surface| match surface.shape {
-        Shape::Parallelogram {
-            corner,
-            edge_a,
-            edge_b,
-        } => Surface {
-            shape: Shape::Parallelogram {
-                corner: corner + edge_a,
-                edge_a: -edge_a,
-                edge_b,
-            },
-            ..surface.clone()
-        },
-        _ => unreachable!("walls are parallelograms"),
+    let outside: Vec<Surface> = room().iter().map(reversed).collect();
+    // Seen from behind, it is all that some patches of the ceiling see but walls.
+    let plate = surface(DVec3::new(0.2, 0.2, 2.0), 1.5 * DVec3::X, 1.5 * DVec3::Y, 1);
+    for inside in [room(), [room(), vec![reversed(&plate)]].concat()] {
+        let count = inside.len() + 3;
+        let plain = made(inside.clone());
+        for others in [Vec::new(), many_more()] {
+            let doubled = made([inside.clone(), outside.clone(), others].concat());
+            for (row, plain) in doubled.rows.iter().zip(&plain.rows) {
+                assert_eq!((row.visible, row.background), (plain.visible, 0.0));
+                assert!((row.backs - plain.backs).abs() <= 1.0 / 256.0, "{row:?}");
+            }
+            // Those of the floor may see the things below it.
+            for row in &doubled.rows[count + 4..count + 9] {
+                assert_eq!((row.fronts, row.background), (0.0, 1.0));
+            }
+        }
+    }
+}
+
+/// Just in front of a ceiling a plate hides it, and just behind it does not.
+#[test]
+fn small_gaps_count() {
+    let plate = |z: f64| surface(DVec3::new(0.0, 0.0, z), 2.0 * DVec3::X, 2.0 * DVec3::Y, 1);
+    let backs = |z: f64, others: Vec<Surface>| {
+        let made = made([room(), vec![plate(z)], others].concat());
+        made.rows[..4].iter().map(|row| row.backs).sum::<f64>() / 4.0
     };
-    // Of a box, turned inside out.
-    let inside: Vec<Surface> = cuboid(DVec3::ZERO, [2.0, 2.0, 3.0])
-        .iter()
-        .map(reversed)
-        .collect();
-    let floor = surface(DVec3::ZERO, 2.0 * DVec3::X, 2.0 * DVec3::Y, 2);
-    let outside: Vec<Surface> = inside.iter().chain([&floor]).map(reversed).collect();
     for others in [Vec::new(), many_more()] {
-        let mesh = subdivide(
-            &[vec![floor.clone()], inside.clone(), outside.clone(), others].concat(),
-            Divisions::uniform(1),
-        )
-        .unwrap();
-        let made = estimate(&mesh, Estimator::Accurate { tolerance: 1e-3 }, &|_| ());
-        let (within, without) = made.rows[..18].split_at(9);
-        for row in within {
-            assert_eq!((row.backs, row.background, row.visible), (0.0, 0.0, 1.0));
-            assert!((row.fronts - 1.0).abs() < 1e-3, "{row:?}");
-        }
-        // Those of the floor see the things below it.
-        for row in &without[..5] {
-            assert_eq!((row.fronts, row.background), (0.0, 1.0));
-        }
+        // By the factor of equal parallel squares at a distance of 1.5 of their edges.
+        assert!((backs(3.0 - 1e-5, others.clone()) - 0.1166).abs() < 0.01);
+        assert_eq!(backs(3.0 + 1e-5, others.clone()), 0.0);
+        assert_eq!(backs(3.0, others), 0.0);
     }
 }
 
