@@ -285,4 +285,29 @@ mod tests {
             }
         }
     }
+
+    /// Corners within rounding of each other, and a wall that is really nearer.
+    #[test]
+    fn walls_in_one_plane_have_one() {
+        let corners = [
+            [0.1, 0.2, 0.3],
+            [2.4, 1.1, 0.7],
+            [2.1, 2.2, 1.9],
+            [-0.2, 1.3, 1.5],
+        ];
+        let quad = |order: [usize; 4], off: f64| {
+            let corners = order.map(|k| DVec3::from(corners[k]) * (1.0 + off));
+            Blocker::new(&Polygon::quad(corners))
+        };
+        let walls = [
+            quad([0, 1, 2, 3], 0.0),
+            quad([2, 1, 0, 3], 1e-15),
+            quad([1, 0, 3, 2], 1e-9),
+        ];
+        let planes = planes_of_few(&walls, 3e-12).unwrap();
+        let bits = |plane: &Plane| (plane.normal, plane.offset);
+        assert_eq!(bits(&planes[1]), bits(&planes[0].reversed()));
+        assert_eq!(bits(&planes[2]), bits(&walls[2].planes[0]));
+        assert!(planes_of_few(&vec![walls[0]; FASTER_THAN_TREE + 1], 3e-12).is_none());
+    }
 }

@@ -10,7 +10,7 @@ const HIDDEN: f64 = 0.95;
 const SUSPICIOUS: f64 = 0.9;
 /// And a part of it, where they are more than this, and twice what they are in all cells.
 const PARTLY_SUSPICIOUS: f64 = 0.6;
-/// Cells of which fewer rays than this share tell something count as seen. In a corner under a tall box a
+/// Cells of which fewer rays than this share tell something do not count. In a corner under a tall box a
 /// quarter of them does, in a niche less.
 const ENOUGH: f64 = 1.0 / 16.0;
 
@@ -34,9 +34,13 @@ pub(crate) struct Cell {
 }
 
 impl Cell {
+    fn tells(&self) -> bool {
+        self.telling > ENOUGH * self.all
+    }
+
     /// The share of backs.
     fn backs(&self) -> f64 {
-        if self.telling > ENOUGH * self.all {
+        if self.tells() {
             self.backs / self.telling
         } else {
             0.0
@@ -83,13 +87,9 @@ pub(crate) fn is_suspicious(cells: &[Cell]) -> bool {
     most > SUSPICIOUS || most > PARTLY_SUSPICIOUS && most > 2.0 * Cell::sum(cells).backs()
 }
 
-/// The visible share of a square of cells. A cell beside a hidden one may
-/// be hidden in part, and then sees more of backs than cells elsewhere do. All is visible if there are no
-/// cells.
+/// The visible share of a square of cells, of which some tell. A cell beside a hidden one may be hidden in
+/// part, and then sees more of backs than cells elsewhere do. All is visible if no cell tells.
 pub(crate) fn visible_share(cells: &[Cell]) -> f64 {
-    if cells.is_empty() {
-        return 1.0;
-    }
     let edge = cells.len().isqrt();
     let is_hidden = |cell: usize| cells[cell].backs() > HIDDEN;
     let is_beside_hidden = |cell: usize| {
@@ -108,6 +108,10 @@ pub(crate) fn visible_share(cells: &[Cell]) -> f64 {
             1.0
         }
     };
-    let visible = (0..cells.len()).map(|cell| cells[cell].all * visible(cell));
-    visible.sum::<f64>() / Cell::sum(cells).all
+    let (mut whole, mut seen) = (0.0, 0.0);
+    for (index, cell) in cells.iter().enumerate().filter(|(_, cell)| cell.tells()) {
+        whole += cell.all;
+        seen += cell.all * visible(index);
+    }
+    if whole > 0.0 { seen / whole } else { 1.0 }
 }

@@ -18,11 +18,11 @@ fn surface(corner: DVec3, edge_a: DVec3, edge_b: DVec3, divisions: u32) -> Surfa
 fn estimated(others: Vec<Surface>) -> FormFactors {
     let mut surfaces = vec![surface(DVec3::ZERO, 2.0 * DVec3::X, 2.0 * DVec3::Y, 2)];
     surfaces.extend(others);
-    made(surfaces)
+    made(&surfaces)
 }
 
-fn made(surfaces: Vec<Surface>) -> FormFactors {
-    let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
+fn made(surfaces: &[Surface]) -> FormFactors {
+    let mesh = subdivide(surfaces, Divisions::uniform(1)).unwrap();
     estimate(&mesh, Estimator::Regular { points: 2 }, &|_| ())
 }
 
@@ -97,7 +97,7 @@ fn a_box_in_a_niche_hides_what_is_under_it() {
     let between = cuboid(DVec3::new(1.0, 0.0, 0.0), [1.0, 1.0, 1.5]);
     for others in [Vec::new(), many_more()] {
         let niche = [vec![floor.clone(), wall.clone()], pillar(0.0), pillar(2.0)].concat();
-        let made = made([niche, between.clone(), others].concat());
+        let made = made(&[niche, between.clone(), others].concat());
         let visible: [f64; 4] = std::array::from_fn(|patch| made.rows[patch].visible);
         // Under the box, and in front of it.
         assert_eq!(visible, [0.0, 1.0, 0.0, 1.0]);
@@ -123,6 +123,30 @@ fn reversed(surface: &Surface) -> Surface {
     }
 }
 
+/// Where planes are the same up to rounding alone.
+fn turned(surface: &Surface) -> Surface {
+    let z = DVec3::new(0.6, -0.3, 0.7).normalize();
+    let (x, y) = z.any_orthonormal_pair();
+    let turn = |v: DVec3| v.x * x + v.y * y + v.z * z;
+    let Shape::Parallelogram {
+        corner,
+        edge_a,
+        edge_b,
+    } = surface.shape
+    else {
+        unreachable!("all are parallelograms")
+    };
+    let shape = Shape::Parallelogram {
+        corner: turn(corner + DVec3::new(3.1, -4.7, 0.3)),
+        edge_a: turn(edge_a),
+        edge_b: turn(edge_b),
+    };
+    Surface {
+        shape,
+        ..surface.clone()
+    }
+}
+
 /// A room of 2 x 2 x 3, the 2 x 2 patches of its floor first.
 fn room() -> Vec<Surface> {
     let outside = cuboid(DVec3::ZERO, [2.0, 2.0, 3.0]);
@@ -139,11 +163,16 @@ fn walls_of_two_faces_show_their_fronts() {
     let outside: Vec<Surface> = room().iter().map(reversed).collect();
     // Seen from behind, it is all that some patches of the ceiling see but walls.
     let plate = surface(DVec3::new(0.2, 0.2, 2.0), 1.5 * DVec3::X, 1.5 * DVec3::Y, 1);
-    for inside in [room(), [room(), vec![reversed(&plate)]].concat()] {
+    let rooms = [room(), [room(), vec![reversed(&plate)]].concat()];
+    for (inside, others) in rooms
+        .iter()
+        .flat_map(|inside| [(inside, Vec::new()), (inside, many_more())])
+    {
         let count = inside.len() + 3;
-        let plain = made(inside.clone());
-        for others in [Vec::new(), many_more()] {
-            let doubled = made([inside.clone(), outside.clone(), others].concat());
+        let all = [inside.clone(), outside.clone(), others].concat();
+        for turn in [Surface::clone, turned] {
+            let plain = made(&inside.iter().map(turn).collect::<Vec<_>>());
+            let doubled = made(&all.iter().map(turn).collect::<Vec<_>>());
             for (row, plain) in doubled.rows.iter().zip(&plain.rows) {
                 assert_eq!((row.visible, row.background), (plain.visible, 0.0));
                 assert!((row.backs - plain.backs).abs() <= 1.0 / 256.0, "{row:?}");
@@ -161,7 +190,7 @@ fn walls_of_two_faces_show_their_fronts() {
 fn small_gaps_count() {
     let plate = |z: f64| surface(DVec3::new(0.0, 0.0, z), 2.0 * DVec3::X, 2.0 * DVec3::Y, 1);
     let backs = |z: f64, others: Vec<Surface>| {
-        let made = made([room(), vec![plate(z)], others].concat());
+        let made = made(&[room(), vec![plate(z)], others].concat());
         made.rows[..4].iter().map(|row| row.backs).sum::<f64>() / 4.0
     };
     for others in [Vec::new(), many_more()] {
