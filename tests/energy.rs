@@ -40,7 +40,7 @@ fn traced(pipeline: &Pipeline<'_>, light: &PatchLight) -> Shares {
         let index = ends.partition_point(|&end| end <= wanted);
         let patch = &mesh.patches[index];
         let ray = Ray::new(point_on(patch, &mut rng), direction(patch.normal, &mut rng));
-        let hit = occluders.closest_hit(&ray, 0.0, f64::INFINITY, Some(patch.face));
+        let hit = occluders.first_from(patch.face, &ray);
         let what = hit.map_or(2, |hit| usize::from(!hit.front));
         counts[what] += 1;
     }

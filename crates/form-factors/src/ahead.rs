@@ -8,8 +8,9 @@ use radiosity_simd::{Float, Simd};
 
 /// So many walls are tried in turn; more are found by a tree.
 const FASTER_THAN_TREE: usize = 32;
-/// What single precision rounds off products of distances and speeds, in units of the largest distance
-/// between a patch and a wall. Were edges not moved outwards by it, a ray in millions would slip through between two walls.
+/// What single precision rounds off products of distances and speeds, in units of the largest
+/// distance between a patch and a wall. Were edges not moved outwards by it, a ray in millions would
+/// slip through between two walls.
 const MARGIN: f32 = 8.0 * f32::EPSILON;
 
 /// The walls in front of a patch.
@@ -88,8 +89,8 @@ impl Ahead {
             if id == own || corners.all(|&corner| plane.height(corner) <= tolerance) {
                 continue;
             }
-            let planes = obstacles.blocker(id).planes;
-            let [_, edges @ ..] = planes.map(|plane| LocalPlane::new(plane, patch.centroid));
+            let [_, edges @ ..] = obstacles.blocker(id).planes;
+            let edges = edges.map(|plane| LocalPlane::new(plane, patch.centroid));
             let width = |k: usize| edges[k].height + edges[k + 2].height;
             let widths = polygon.is_parallelogram().then(|| [width(0), width(1)]);
             let farthest = reach(patch, polygon) + radius;
@@ -108,7 +109,8 @@ impl Ahead {
     /// What rays from points of the patch, in directions of unit length, meet first.
     ///
     /// A ray meets a wall if it comes nearer to its plane, and if where it crosses that it is inside of
-    /// all edges. Where a front and a back lie in one plane, it meets the front, as [`Occluders::closest_hit`](radiosity_geometry::Occluders::closest_hit) does.
+    /// all edges. Where a front and a back lie in one plane, it meets the front, as
+    /// [`Occluders::closest_hit`](radiosity_geometry::Occluders::closest_hit) has it.
     #[inline(always)]
     pub(crate) fn meet<S: Simd>(
         &self,
