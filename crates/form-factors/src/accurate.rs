@@ -2,12 +2,12 @@
 //! hidden), *integrate* the unoccluded kernel, and *measure* the visible share where there is doubt.
 
 use crate::blocker::Blocker;
+use crate::budget::Budget;
 use crate::element::Element;
 use crate::far::{self, FarTile};
-use crate::lines::{Lines, MOST_BLOCKERS};
+use crate::lines::{Blocked, Lines};
 use crate::obstacles::{Between, Obstacles};
 use crate::random::Stream;
-use crate::segments::{Blocked, Segments};
 use crate::tally::Sight;
 use crate::target::Target;
 use crate::tiles::{Tile, Tiling};
@@ -18,9 +18,6 @@ use radiosity_simd::LANES;
 
 /// The share of a row's tolerance that the unoccluded exchange may use up.
 const UNOCCLUDED_SHARE: f64 = 0.02;
-/// The tolerance of a row is shared as if one in so many of its patches were partly hidden, each
-/// with as large a factor. Rows with more of them have a larger error, and say so.
-const PARTLY_HIDDEN_ONE_IN: f64 = 40.0;
 /// Seed of all shifts.
 const SEED: u64 = 0;
 
@@ -29,8 +26,8 @@ pub(crate) struct Accurate<'a> {
     mesh: &'a Mesh,
     elements: Vec<Element>,
     far_tiles: Vec<FarTile>,
-    targets: Vec<Target>,
     tolerance: f64,
+    pub(crate) budget: Budget,
 }
 
 /// `S_ij` and its standard error, in scene units.
@@ -38,6 +35,8 @@ pub(crate) struct Accurate<'a> {
 pub(crate) struct Exchange {
     pub(crate) value: f64,
     pub(crate) error: f64,
+    /// By how much the error is larger than it was to be, since there is a limit to samples.
+    pub(crate) missed: f64,
     pub(crate) sight: Sight,
 }
 
@@ -48,6 +47,7 @@ impl Exchange {
         Exchange {
             value,
             error,
+            missed: 0.0,
             sight,
         }
     }
@@ -63,9 +63,9 @@ impl<'a> Accurate<'a> {
         Accurate {
             mesh,
             far_tiles: tiling.tiles.iter().map(far_tile).collect(),
-            targets: mesh.patches.iter().map(Target::new).collect(),
             elements,
             tolerance,
+            budget: Budget::new(tolerance, mesh.patches.len()),
         }
     }
 
@@ -100,60 +100,52 @@ impl<'a> Accurate<'a> {
         if clear == 0.0 {
             return unoccluded;
         }
-        let share = match between {
+        let faces = [i, j].map(|patch| obstacles.wall(&self.mesh.patches[patch]));
+        let listed: Vec<Blocker>;
+        let blocked = match between {
             Between::Few(faces) if faces.is_empty() => return unoccluded,
             Between::Few(faces) => {
-                let faces = faces.iter();
-                let blockers: Vec<Blocker> = faces.map(|&f| *obstacles.blocker(f)).collect();
-                self.past_few(i, j, &blockers, clear)
+                listed = faces.iter().map(|&f| *obstacles.blocker(f)).collect();
+                Blocked::By(&listed)
             }
-            Between::Many => {
-                let faces = [i, j].map(|patch| obstacles.wall(&self.mesh.patches[patch]));
-                self.among(i, j, Blocked::Somehow(&obstacles.occluders, faces), clear)
-            }
+            Between::Many => Blocked::Somehow(&obstacles.occluders, faces),
         };
+        let share = self.visible([i, j], &blocked, clear, obstacles);
         Exchange {
             value: share.value * clear,
             error: share.error * clear + unoccluded.error,
+            missed: share.missed * clear,
             sight: Sight::Partial,
         }
     }
 
-    /// The visible share past a few blockers: by lines across the larger patch, unless they are
-    /// many.
-    fn past_few(&self, i: usize, j: usize, blockers: &[Blocker], clear: f64) -> Share {
-        if blockers.len() > MOST_BLOCKERS {
-            return self.among(i, j, Blocked::By(blockers), clear);
-        }
+    /// The visible share of a pair, as the points of the smaller patch see the larger one.
+    fn visible(
+        &self,
+        [i, j]: [usize; 2],
+        blocked: &Blocked<'_>,
+        clear: f64,
+        obstacles: &Obstacles,
+    ) -> Share {
         let (from, across) = if self.area(i) < self.area(j) {
             (i, j)
         } else {
             (j, i)
         };
-        let lines = Lines::new(&self.targets[from], &self.targets[across], blockers);
-        share(
-            &lines,
-            Stream::of_pair(SEED, i, j),
-            self.wanted(i, j, clear),
-        )
-    }
-
-    /// The visible share among any blockers, by segments.
-    fn among(&self, i: usize, j: usize, blocked: Blocked<'_>, clear: f64) -> Share {
-        let targets = [&self.targets[i], &self.targets[j]];
-        let segments = Segments { targets, blocked };
+        let tolerance = obstacles.occluders.plane_tolerance();
+        let [of_from, of_across] = [from, across].map(|patch| &self.elements[patch]);
+        let Some(corners) = of_across.clip(&of_from.corners, tolerance) else {
+            // One lies in the plane of the other, up to rounding.
+            return Share::UNKNOWN;
+        };
+        let lines = Lines::new(
+            (&corners, of_from.normal),
+            Target::new(&self.mesh.patches[across].polygon, of_across.normal),
+            blocked,
+        );
         let stream = Stream::of_pair(SEED, i, j);
-        share(&segments, stream, self.wanted(i, j, clear))
-    }
-
-    /// The error of a share that is the pair's part of the tolerance of either row.
-    ///
-    /// The work is least where errors go with the square root of factors, and `n` such errors, of
-    /// factors that sum to 1, sum to the tolerance if each is `tolerance sqrt(F / n)`.
-    fn wanted(&self, i: usize, j: usize, clear: f64) -> f64 {
-        let factor = clear / self.area(i).min(self.area(j));
-        let pairs = self.mesh.patches.len() as f64 / PARTLY_HIDDEN_ONE_IN;
-        self.tolerance / (pairs.max(1.0) * factor).sqrt()
+        let ends = [i, j].map(|patch| (patch, self.area(patch)));
+        share(&lines, stream, self.budget.of_pair(ends, clear) / clear)
     }
 
     fn area(&self, patch: usize) -> f64 {

@@ -231,7 +231,7 @@ mod tests {
             let ToPoints(patch, ahead, to) = self;
             let coordinates = std::array::from_fn(|lane| (0.37 * lane as f64 + 0.1).fract());
             let u = simd.f64(&coordinates);
-            let from = points(simd, &Target::new(patch), u, u * u);
+            let from = points(simd, &Target::new(&patch.polygon, patch.normal), u, u * u);
             let starts = from.lanes();
             let mut directions = [[0.0f32; LANES]; 3];
             for (lane, to) in to.iter().enumerate() {

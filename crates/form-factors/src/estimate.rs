@@ -6,14 +6,13 @@
 //! depends on its pair alone, so the result is the same for any number of threads.
 
 use crate::accurate::Accurate;
-use crate::fixed::Fixed;
 use crate::monte_carlo::{MonteCarlo, Strata};
 use crate::obstacles::Obstacles;
 use crate::pairs::Told;
 use crate::part::Part;
 use crate::regular::{Regular, Scratch};
 use crate::surroundings::{Surroundings, look_around};
-use crate::tally::{Classes, Tally};
+use crate::tally::{Classes, RowError, Tally};
 use crate::tiles::{Tile, Tiling};
 use crate::{Estimator, FormFactors};
 use radiosity_geometry::{Mesh, Patch};
@@ -75,14 +74,24 @@ impl<'a> Estimation<'a> {
             let face = &mesh.faces[patch.face.index()];
             Part::on_face(obstacles.wall(patch), face, patch.polygon.padded_corners())
         };
-        Estimation {
+        let mut estimation = Estimation {
             mesh,
             parts: mesh.patches.iter().map(part).collect(),
             tiling,
             obstacles,
             method,
             scale: 1.0 / mesh.total_area(),
+        };
+        let budget = match (&estimation.method, estimator) {
+            (Method::Accurate(accurate), Estimator::Accurate { tolerance }) => {
+                Some(estimation.budget(accurate, tolerance))
+            }
+            _ => None,
+        };
+        if let (Method::Accurate(accurate), Some(budget)) = (&mut estimation.method, budget) {
+            accurate.budget = budget;
         }
+        estimation
     }
 
     /// Estimates at least so many pairs, spread over all of them, and throws them away: for
@@ -218,7 +227,7 @@ impl<'a> Estimation<'a> {
         let patches = &self.tiling.tiles[tile].patches;
         let area = |patch: usize| self.mesh.patches[patch].area;
         let mut classes = Classes::default();
-        let mut errors = [Fixed::default(); LANES];
+        let mut errors = [RowError::default(); LANES];
         let mut tell = |lane: usize, told: Told<'_>| {
             let row = &mut *rows[lane];
             for (&j, &value) in told.others.iter().zip(told.values) {
@@ -227,11 +236,11 @@ impl<'a> Estimation<'a> {
                     continue;
                 };
                 *entry = value;
-                if let Some((sight, error)) = told.estimate {
-                    errors[lane] += Fixed::of(error / area(patches[lane]));
-                    tally.add_error(j, Fixed::of(error / area(j)));
+                if let Some(exchange) = told.estimate {
+                    errors[lane] += RowError::of(&exchange, area(patches[lane]));
+                    tally.add_error(j, RowError::of(&exchange, area(j)));
                     // In a mean over rows a pair counts twice.
-                    classes.add(sight, 2.0 * error * self.scale);
+                    classes.add(exchange.sight, 2.0 * exchange.error * self.scale);
                 }
             }
         };

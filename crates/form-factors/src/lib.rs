@@ -21,16 +21,20 @@
 mod accurate;
 mod ahead;
 mod blocker;
+mod budget;
+mod cells;
 mod closure;
 mod contour;
 mod element;
 mod estimate;
 mod exchange;
+mod fan;
 mod far;
 mod fixed;
 mod gauss;
 mod hidden;
 mod hull;
+mod lattice;
 mod lines;
 mod lumped;
 mod monte_carlo;
@@ -42,7 +46,6 @@ mod random;
 mod regular;
 mod reverse;
 mod samples;
-mod segments;
 mod shade;
 mod stand_ins;
 mod surroundings;
@@ -56,6 +59,7 @@ mod visible;
 use radiosity_matrix::SymmetricMatrix;
 use serde::{Deserialize, Serialize};
 use surroundings::Surroundings;
+use tally::Errors;
 
 pub use closure::{Closure, ClosureFacts};
 pub use estimate::{Estimation, estimate};
@@ -64,7 +68,7 @@ pub use tally::{ClassFacts, Classes, Tally};
 
 /// Raise it whenever the same mesh would give other form factors, because of a change here, in
 /// `geometry`, or in the random numbers: it is part of their key.
-pub const VERSION: u32 = 13;
+pub const VERSION: u32 = 14;
 
 /// How the double integral of a pair is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -139,6 +143,9 @@ pub struct RowFacts {
     pub visible: f64,
     /// The estimated sum of the absolute errors of the row's factors, if the estimator tells.
     pub error: Option<f64>,
+    /// The part of `error` that is left although more was asked for: of pairs that have used up
+    /// all of their samples. No tolerance lowers it.
+    pub missed: f64,
 }
 
 /// The form factors of all pairs.
@@ -157,12 +164,11 @@ pub struct FormFactors {
 }
 
 impl FormFactors {
-    /// Completes areas and matrix by the facts that follow from them. `errors` are those of the
-    /// rows and of classes of pairs.
+    /// Completes areas and matrix by the facts that follow from them.
     fn new(
         areas: Vec<f64>,
         exchange: SymmetricMatrix,
-        errors: Option<(Vec<f64>, Classes)>,
+        errors: Option<Errors>,
         surroundings: &[Surroundings],
     ) -> FormFactors {
         let total: f64 = areas.iter().sum();
@@ -173,13 +179,14 @@ impl FormFactors {
             background: surroundings[i].background,
             rays_error: surroundings[i].error,
             visible: surroundings[i].visible,
-            error: errors.as_ref().map(|(of_rows, _)| of_rows[i]),
+            error: errors.as_ref().map(|errors| errors.estimated[i]),
+            missed: errors.as_ref().map_or(0.0, |errors| errors.missed[i]),
         };
         FormFactors {
             rows: (0..areas.len()).map(row).collect(),
             areas,
             exchange,
-            classes: errors.map(|(_, classes)| classes),
+            classes: errors.map(|errors| errors.classes),
             closure: None,
         }
     }

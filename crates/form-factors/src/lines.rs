@@ -2,23 +2,43 @@
 //! convex blockers on a line across the other are intervals, and what light passes between them is
 //! known in closed form. What is left to sample is continuous but where a line runs along the edge of
 //! a shadow, and needs far fewer samples than points do.
+//!
+//! Lines are drawn by the angle at which the point sees them (`fan.rs`), and so the integrand is
+//! bounded, even where the patches touch: with `rho` the distance of the line, `beta` the angle from its foot
+//! and `phi` that around an axis through the point parallel to it, the solid angle is
+//! `cos beta d beta d phi`.
 
 use crate::blocker::{Blocker, PLANES, Plane};
-use crate::target::{Fan, Points, Target, dot, height, points};
-use crate::visible::{Sampler, Shifts, coordinate};
+use crate::fan::Fan;
+use crate::lattice::Lattice;
+use crate::target::{Points, Target, dot, height, points};
+use crate::visible::Sampler;
 use arrayvec::ArrayVec;
-use radiosity_geometry::DVec3;
-use radiosity_simd::{Float, Simd, angle};
+use radiosity_geometry::{Bundle, DVec3, FaceId, Occluders, Polygon};
+use radiosity_simd::{Float, LANES, Simd, angle};
 
-/// More blockers are not worth sorting.
-pub(crate) const MOST_BLOCKERS: usize = 8;
+/// At most so many blockers are listed.
+pub(crate) const MOST_BLOCKERS: usize = 64;
+
+/// What may stand in the way.
+pub(crate) enum Blocked<'a> {
+    /// These faces.
+    By(&'a [Blocker]),
+    /// Any face of the scene but these, on which the patches lie.
+    Somehow(&'a Occluders, [FaceId; 2]),
+}
 
 /// Lines across a patch, seen from points of another.
 pub(crate) struct Lines<'a> {
-    from: &'a Target,
-    across: &'a Target,
-    screens: ArrayVec<Screen, MOST_BLOCKERS>,
+    /// The points' patch, in quads and triangles.
+    from: ArrayVec<Target, MOST_PIECES>,
+    across: Target,
+    screens: Vec<Screen>,
+    tree: Option<(&'a Occluders, [FaceId; 2])>,
 }
+
+/// A polygon of eight corners is as many quads.
+const MOST_PIECES: usize = 3;
 
 /// A blocker as lines across a patch see it: its planes.
 struct Screen([Side; PLANES]);
@@ -39,18 +59,32 @@ struct Heights {
 }
 
 impl<'a> Lines<'a> {
-    /// There are at most [`MOST_BLOCKERS`].
-    pub(crate) fn new(from: &'a Target, across: &'a Target, blockers: &[Blocker]) -> Lines<'a> {
-        let mut lines = Lines {
-            from,
-            across,
-            screens: ArrayVec::new(),
+    /// From the points of a convex polygon with a normal across a patch.
+    pub(crate) fn new(from: (&[DVec3], DVec3), across: Target, blocked: &Blocked<'a>) -> Lines<'a> {
+        let (screens, tree) = match *blocked {
+            Blocked::By(blockers) => {
+                let blockers = blockers.iter();
+                (blockers.map(|b| Screen::new(b, &across)).collect(), None)
+            }
+            Blocked::Somehow(occluders, faces) => (Vec::new(), Some((occluders, faces))),
         };
-        for blocker in blockers {
-            lines.screens.push(Screen::new(blocker, across));
+        Lines {
+            from: pieces(from.0, from.1),
+            across,
+            screens,
+            tree,
         }
-        lines
     }
+}
+
+/// A convex polygon cut into quads and a triangle, all of which have its first corner.
+fn pieces(corners: &[DVec3], normal: DVec3) -> ArrayVec<Target, MOST_PIECES> {
+    let piece = |k: usize| match corners[k..] {
+        [b, c, d, ..] => Polygon::quad([corners[0], b, c, d]),
+        _ => Polygon::triangle([corners[0], corners[k], corners[k + 1]]),
+    };
+    let firsts = (1..corners.len() - 1).step_by(2);
+    firsts.map(|k| Target::new(&piece(k), normal)).collect()
 }
 
 impl Screen {
@@ -91,40 +125,101 @@ struct Light<F> {
 }
 
 impl Sampler for Lines<'_> {
-    #[inline(always)]
-    fn sample<S: Simd>(&self, simd: S, k: usize, shifts: &Shifts) -> [S::F64; 2] {
-        let zero = simd.splat_f64(0.0);
-        let nothing = Interval {
-            from: zero,
-            to: zero,
-        };
-        let (u, v) = (
-            coordinate(simd, k, 0, shifts),
-            coordinate(simd, k, 1, shifts),
-        );
-        let p = points(simd, self.from, u, v);
-        // Of the longest line; one without length would have no foot.
-        let length = coordinate(simd, k, 2, shifts).max(simd.splat_f64(SHORTEST));
-        let (mut all, mut visible) = (zero, zero);
-        for (number, fan) in self.across.fans.iter().enumerate() {
-            let light = light(simd, (self.from, &p), (self.across.normal, fan), length);
-            let mut shadows = [nothing; MOST_BLOCKERS];
-            for (shadow, screen) in shadows.iter_mut().zip(&self.screens) {
-                *shadow = shadow_of(simd, screen, &p, (number, length), light.bright);
-            }
-            let hidden = light_in_union(simd, &mut shadows[..self.screens.len()], &light);
-            let total = light.over(simd, light.bright);
-            all = all + total;
-            visible = visible + (total - hidden);
-        }
-        [p.area * all, p.area * visible]
+    fn pieces(&self) -> usize {
+        self.from.len()
     }
 
-    /// The shadow of a corner that no line has met is small among lines, and on each of them.
-    fn unseen(&self, share: f64) -> f64 {
-        let share = share / self.across.fans.len() as f64;
-        share * libm::cbrt(share)
+    fn coordinates(&self) -> usize {
+        match self.tree {
+            None => 3,
+            Some(_) => 4,
+        }
     }
+
+    #[inline(always)]
+    fn sample<S: Simd>(&self, simd: S, k: usize, piece: usize, lattice: &Lattice) -> [S::F64; 2] {
+        let zero = simd.splat_f64(0.0);
+        let (u, v) = (
+            lattice.coordinate(simd, k, 0),
+            lattice.coordinate(simd, k, 1),
+        );
+        let from = &self.from[piece];
+        let p = points(simd, from, u, v);
+        let turn = lattice.coordinate(simd, k, 2);
+        let (mut all, mut visible) = (zero, zero);
+        for (number, fan) in self.across.fans.iter().enumerate() {
+            let [length, density] = fan.line(simd, &p, turn);
+            let length = length.max(simd.splat_f64(SHORTEST));
+            let density = density * p.area;
+            let light = light(simd, (from, &p), (self.across.normal, fan), length);
+            let [total, seen] = match self.tree {
+                None => {
+                    let hidden = self.hidden(simd, &p, (number, length), &light);
+                    let total = light.over(simd, light.bright);
+                    [total, total - hidden]
+                }
+                Some(tree) => {
+                    let along = lattice.coordinate(simd, k, 3);
+                    let (at, light) = light.at(simd, along);
+                    let q = fan.place(simd, length, at);
+                    let blocked = blocked(simd, tree, &p, &q, zero.less(light));
+                    [light, zero.select(blocked, light)]
+                }
+            };
+            all = all + density * total;
+            visible = visible + density * seen;
+        }
+        [all, visible]
+    }
+
+    fn unseen(&self, share: f64) -> f64 {
+        match self.tree {
+            // The shadow of a corner that no line has met is small among lines, and on each of them.
+            None => {
+                let share = share / self.across.fans.len() as f64;
+                share * libm::cbrt(share)
+            }
+            // Anything that is smaller than what one sample stands for.
+            Some(_) => share,
+        }
+    }
+}
+
+impl Lines<'_> {
+    /// The light that blockers take away, of that on the line of a fan that has this length.
+    #[inline(always)]
+    fn hidden<S: Simd>(
+        &self,
+        simd: S,
+        p: &Points<S::F64>,
+        line: (usize, S::F64),
+        light: &Light<S::F64>,
+    ) -> S::F64 {
+        let mut shadows: ArrayVec<Interval<S::F64>, MOST_BLOCKERS> = ArrayVec::new();
+        for screen in &self.screens {
+            if let Some(shadow) = shadow_of(simd, screen, p, line, light.bright) {
+                shadows.push(shadow);
+            }
+        }
+        light_in_union(simd, &mut shadows, light)
+    }
+}
+
+/// Which segments the tree of all faces says are blocked, of those that matter.
+#[inline(always)]
+fn blocked<S: Simd>(
+    _: S,
+    (occluders, faces): (&Occluders, [FaceId; 2]),
+    p: &Points<S::F64>,
+    q: &[S::F64; 3],
+    which: u8,
+) -> u8 {
+    let [x, y, z] = *q;
+    let bundle = Bundle {
+        points: [p.lanes(), [x.lanes(), y.lanes(), z.lanes()]],
+        faces: faces.map(|face| [face; LANES]),
+    };
+    occluders.blocked_of(&bundle, which)
 }
 
 /// Lines are at least so long, in units of the longest.
@@ -223,10 +318,34 @@ impl<F: Float<f64>> Light<F> {
         let rational = to * at_to - from * at_from;
         half * (self.constant * (arc + rational) / self.squared + self.linear * (at_from - at_to))
     }
+
+    /// Of the angle from the foot to a place, seen from the point.
+    #[inline(always)]
+    fn sine(&self, place: F) -> F {
+        let s = place - self.foot;
+        s / (s * s + self.squared).sqrt()
+    }
+
+    /// A place on the bright part of the line, and the light there times the derivative of the place: drawn by
+    /// the sine of the angle from the foot, `s / sqrt(s^2 + distance^2)`.
+    #[inline(always)]
+    fn at<S: Simd<F64 = F>>(&self, simd: S, way: F) -> (F, F) {
+        let one = simd.splat_f64(1.0);
+        let distance = self.squared.sqrt();
+        let [from, to] = [self.sine(self.bright.from), self.sine(self.bright.to)];
+        let extent = to - from;
+        let sine = from + way * extent;
+        let cosine = ((one - sine) * (one + sine)).sqrt();
+        let light = self.constant * cosine + self.linear * (distance * sine);
+        (
+            self.foot + distance * (sine / cosine),
+            light * extent / (self.squared * distance),
+        )
+    }
 }
 
 /// The part of a line, of a fan and of this length, that a screen hides from a point: where a few
-/// functions that are linear along the line are all positive.
+/// functions that are linear along the line are all positive. `None` if that is nothing in any lane.
 #[inline(always)]
 fn shadow_of<S: Simd>(
     simd: S,
@@ -234,7 +353,7 @@ fn shadow_of<S: Simd>(
     p: &Points<S::F64>,
     (fan, length): (usize, S::F64),
     bright: Interval<S::F64>,
-) -> Interval<S::F64> {
+) -> Option<Interval<S::F64>> {
     let at_p = height(simd, &front.plane, p);
     let [at_start, at_end] = front.fans[fan].of_line(simd, length);
     let across_start = -(at_p * at_start);
@@ -243,6 +362,9 @@ fn shadow_of<S: Simd>(
     clip(&mut shadow, across_start, across_end);
     let squared = at_p * at_p;
     for edge in edges {
+        if shadow.from.less(shadow.to) == 0 {
+            return None;
+        }
         let edge_at_p = height(simd, &edge.plane, p);
         let [at_start, at_end] = edge.fans[fan].of_line(simd, length);
         let start = edge_at_p * across_start + at_start * squared;
@@ -252,10 +374,10 @@ fn shadow_of<S: Simd>(
     // An interval that ends before it begins is none.
     let beyond = simd.splat_f64(BEYOND);
     let Interval { from, to } = shadow;
-    Interval {
+    (from.less(to) != 0).then_some(Interval {
         from: from.if_less(to, from, beyond),
         to: from.if_less(to, to, beyond),
-    }
+    })
 }
 
 /// Leaves of an interval where a linear function of these values at 0 and 1 is positive.

@@ -5,13 +5,12 @@ use crate::accurate::{Accurate, Exchange};
 use crate::estimate::{Estimation, Method, Room};
 use crate::obstacles::Between;
 use crate::part::Part;
-use crate::tally::Sight;
 use crate::tiles::{Group, Tile};
 use std::borrow::Cow;
 use std::ops::Range;
 
 /// So many faces are listed between two parts; among more, segments find their way by the tree.
-const FEW: usize = 64;
+pub(crate) const FEW: usize = 64;
 /// So many for the regular rule, which tries a face on all segments of a pair at once, where tiles have
 /// too many between them.
 const MANY: usize = 256;
@@ -21,8 +20,8 @@ pub(crate) struct Told<'a> {
     pub(crate) others: &'a [usize],
     /// `S_ij` with each of them, in units of the total area.
     pub(crate) values: &'a [f32],
-    /// How much a pair sees of each other, and the error of `S_ij` in scene units, if it is known.
-    pub(crate) estimate: Option<(Sight, f64)>,
+    /// The same of a pair with its error, if that is known.
+    pub(crate) estimate: Option<Exchange>,
 }
 
 impl<'a> Told<'a> {
@@ -112,7 +111,7 @@ impl Estimation<'_> {
 
     /// What may stand between two parts, given what may between larger ones around them; `None` if
     /// they cannot see each other's fronts.
-    fn view(&self, between: &Between, ends: [&Part; 2], most: usize) -> Option<Between> {
+    pub(crate) fn view(&self, between: &Between, ends: [&Part; 2], most: usize) -> Option<Between> {
         if !self.may_see(ends) {
             return None;
         }
@@ -166,7 +165,7 @@ impl Estimation<'_> {
                         let told = Told {
                             others: &[j],
                             values: &[(exchange.value * self.scale) as f32],
-                            estimate: Some((exchange.sight, exchange.error)),
+                            estimate: Some(exchange),
                         };
                         tell(lane, told);
                     }

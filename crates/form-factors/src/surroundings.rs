@@ -5,10 +5,10 @@
 
 use crate::ahead::{Ahead, Met};
 use crate::hidden::{Cell, Starts, by_cell, is_suspicious, visible_share};
+use crate::lattice::{Block, Lattice, ratio};
 use crate::obstacles::Obstacles;
 use crate::random::Stream;
 use crate::target::{Points, Target, points};
-use crate::visible::{Shifts, coordinate, ratio, shifts};
 use radiosity_geometry::{DVec3, FaceId, Mesh, Patch, Ray};
 use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
 use std::f32::consts::FRAC_PI_4;
@@ -60,7 +60,7 @@ pub(crate) fn look_around(mesh: &Mesh, obstacles: &Obstacles, index: usize) -> S
             obstacles,
             patch,
             ahead: ahead.as_ref(),
-            shifts: &shifts(Stream::of_pair(SEED, index, index)),
+            lattice: &Lattice::new(Block::WHOLE, &mut Stream::of_pair(SEED, index, index)),
             effort,
         })
     };
@@ -89,7 +89,7 @@ struct Look<'a> {
     patch: &'a Patch,
     /// Unless there are too many walls.
     ahead: Option<&'a Ahead>,
-    shifts: &'a Shifts,
+    lattice: &'a Lattice,
     effort: Effort,
 }
 
@@ -108,11 +108,11 @@ impl Kernel for Look<'_> {
     fn run<S: Simd>(self, simd: S) -> Sums {
         let zero = simd.splat_f64(0.0);
         let (mut all, mut backs, mut background) = (zero, zero, zero);
-        let target = Target::new(self.patch);
+        let target = Target::new(&self.patch.polygon, self.patch.normal);
         let Effort { rays: count, cells } = self.effort;
         let mut starts = Vec::with_capacity(count);
         for k in 0..count {
-            let rays = rays(simd, (self.patch, &target), k, self.shifts);
+            let rays = rays(simd, (self.patch, &target), k, self.lattice);
             let met = match self.ahead {
                 Some(ahead) => ahead.meet(simd, &rays.from, rays.direction),
                 None => trace(self.obstacles, self.patch, &rays),
@@ -144,16 +144,16 @@ fn rays<S: Simd>(
     simd: S,
     (patch, target): (&Patch, &Target),
     k: usize,
-    shifts: &Shifts,
+    lattice: &Lattice,
 ) -> Rays<S> {
     let (u, v) = (
-        coordinate(simd, k, 0, shifts),
-        coordinate(simd, k, 1, shifts),
+        lattice.coordinate(simd, k, 0),
+        lattice.coordinate(simd, k, 1),
     );
     let from = points(simd, target, u, v);
     let (a, b) = (
-        coordinate(simd, k, 2, shifts),
-        coordinate(simd, k, 3, shifts),
+        lattice.coordinate(simd, k, 2),
+        lattice.coordinate(simd, k, 3),
     );
     let [x, y] = on_disk(simd, a, b);
     let one = simd.splat_f32(1.0);

@@ -1,7 +1,9 @@
 //! What is counted while rows are filled: the same whatever the order.
 
+use crate::accurate::Exchange;
 use crate::fixed::{Fixed, FixedSums};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::ops::AddAssign;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// How much two patches see of each other.
@@ -34,9 +36,42 @@ pub struct Classes {
 
 /// The errors of rows and of classes of pairs, as far as they are estimated.
 pub struct Tally {
-    /// Of all rows, and then of both classes.
+    /// Of all rows, then what all rows have missed, and then of both classes.
     errors: FixedSums,
     pairs: [AtomicU64; 2],
+}
+
+/// What pairs add to the error of a row, and to what it has missed.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct RowError {
+    error: Fixed,
+    missed: Fixed,
+}
+
+impl RowError {
+    /// Of a pair in the row of a patch of this area.
+    pub(crate) fn of(exchange: &Exchange, area: f64) -> RowError {
+        RowError {
+            error: Fixed::of(exchange.error / area),
+            missed: Fixed::of(exchange.missed / area),
+        }
+    }
+}
+
+impl AddAssign for RowError {
+    fn add_assign(&mut self, other: RowError) {
+        self.error += other.error;
+        self.missed += other.missed;
+    }
+}
+
+/// What is known of the errors of all rows.
+pub(crate) struct Errors {
+    /// By row.
+    pub(crate) estimated: Vec<f64>,
+    /// By row.
+    pub(crate) missed: Vec<f64>,
+    pub(crate) classes: Classes,
 }
 
 impl Clone for Tally {
@@ -63,7 +98,7 @@ impl Tally {
     /// Nothing is estimated yet of so many rows.
     pub fn new(rows: usize) -> Tally {
         Tally {
-            errors: FixedSums::new(rows + 2),
+            errors: FixedSums::new(2 * rows + 2),
             pairs: Default::default(),
         }
     }
@@ -72,28 +107,37 @@ impl Tally {
         self.pairs.each_ref().map(|n| n.load(Ordering::Relaxed))
     }
 
-    pub(crate) fn add_error(&self, row: usize, error: Fixed) {
-        self.errors.add(row, error);
+    fn rows(&self) -> usize {
+        (self.errors.count() - 2) / 2
+    }
+
+    pub(crate) fn add_error(&self, row: usize, of_row: RowError) {
+        self.errors.add(row, of_row.error);
+        self.errors.add(self.rows() + row, of_row.missed);
     }
 
     pub(crate) fn add_classes(&self, classes: &Classes) {
-        let rows = self.errors.count() - 2;
+        let rows = self.rows();
         for (k, class) in [classes.clear, classes.partial].into_iter().enumerate() {
-            self.errors.add(rows + k, Fixed::of(class.error));
+            self.errors.add(2 * rows + k, Fixed::of(class.error));
             self.pairs[k].fetch_add(class.pairs, Ordering::Relaxed);
         }
     }
 
-    /// The error of each row, and the classes of pairs.
-    pub(crate) fn sums(&self) -> (Vec<f64>, Classes) {
-        let mut errors = self.errors.sums();
-        let of_classes = errors.split_off(errors.len() - 2);
+    pub(crate) fn sums(&self) -> Errors {
+        let mut estimated = self.errors.sums();
+        let mut missed = estimated.split_off(self.rows());
+        let of_classes = missed.split_off(self.rows());
         let class = |k: usize| ClassFacts {
             pairs: self.pairs[k].load(Ordering::Relaxed),
             error: of_classes[k],
         };
         let (clear, partial) = (class(0), class(1));
-        (errors, Classes { clear, partial })
+        Errors {
+            estimated,
+            missed,
+            classes: Classes { clear, partial },
+        }
     }
 }
 

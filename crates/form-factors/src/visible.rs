@@ -1,154 +1,140 @@
 //! The visible share of a pair of patches: the mean of `V`, weighted by the kernel.
 //!
-//! Samples are those of an embedded lattice, shifted at random: eight shifts, one per lane, whose
-//! scatter tells the error (Cranley & Patterson, "Randomization of Number Theoretic Methods for
-//! Multiple Integration", 1976).
+//! All samples are of one lattice at first. Where that is not enough, the cube of their coordinates
+//! is halved again and again, into cells with a small lattice each. Shadows end at surfaces in the
+//! cube, and only cells that these pass through are halved further. The error of `n` samples goes with
+//! `1 / n` if the integrand jumps at such a surface, and with `n^-3/2` if it has a kink there. (With
+//! one lattice it goes with `n^-2/3` where there are jumps.)
 
+use crate::cells::{Cell, IN_CELL, Measure, Region, Sums, Total};
+use crate::lattice::{Block, Lattice};
 use crate::random::Stream;
-use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
-use std::ops::Range;
+use radiosity_simd::{Simd, dispatch};
 
-/// Samples under each shift to begin with, and at most.
+/// Samples under each shift to begin with.
 const FEWEST: usize = 4;
-const MOST: usize = 8192;
+/// So many of one lattice at most.
+const IN_ONE: usize = 512;
+/// So many of all cells.
+const MOST: usize = 1 << 19;
+/// One round of halving aims at this part of the error: what is worth to be halved further shows best
+/// in the halves.
+const LESS_ERROR: f64 = 1.0 / 8.0;
 
-/// A share with its standard error.
+/// A share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Share {
     pub(crate) value: f64,
+    /// Its standard error.
     pub(crate) error: f64,
+    /// By how much the error is larger than was wanted, since there is a limit to the samples.
+    pub(crate) missed: f64,
 }
 
-/// By shift: the sums of the kernel, and of the kernel where there is a view.
-#[derive(Default)]
-struct Sums {
-    all: [f64; LANES],
-    visible: [f64; LANES],
-    /// Of the squares of the kernel.
-    squares: [f64; LANES],
+impl Share {
+    /// Of what is too little to be sampled.
+    pub(crate) const UNKNOWN: Share = Share {
+        value: 1.0,
+        error: 1.0,
+        missed: 0.0,
+    };
 }
-
-/// A random shift of each coordinate, for each lane.
-pub(crate) type Shifts = [[f64; LANES]; 4];
 
 /// A way to sample a pair of patches.
 pub(crate) trait Sampler {
-    /// The kernel of the `k`-th sample under each shift, and how much of it is visible.
-    fn sample<S: Simd>(&self, simd: S, k: usize, shifts: &Shifts) -> [S::F64; 2];
+    /// The pieces of the pair, which are sampled one by one.
+    fn pieces(&self) -> usize;
+    /// How many coordinates a sample has.
+    fn coordinates(&self) -> usize;
+    /// The kernel of the `k`-th sample of a piece under each shift, and how much of it is visible.
+    fn sample<S: Simd>(&self, simd: S, k: usize, piece: usize, lattice: &Lattice) -> [S::F64; 2];
     /// What may have gone unseen between samples of which each has this share of all weights.
     fn unseen(&self, share: f64) -> f64;
 }
 
-/// Adds samples to sums.
-struct Measure<'a, T> {
-    sampler: &'a T,
-    shifts: &'a Shifts,
-    samples: Range<usize>,
-    sums: &'a mut Sums,
-}
-
-impl<T: Sampler> Kernel for Measure<'_, T> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) {
-        let mut all = simd.f64(&self.sums.all);
-        let mut visible = simd.f64(&self.sums.visible);
-        let mut squares = simd.f64(&self.sums.squares);
-        for k in self.samples {
-            let [kernel, seen] = self.sampler.sample(simd, k, self.shifts);
-            all = all + kernel;
-            visible = visible + seen;
-            squares = squares + kernel * kernel;
-        }
-        self.sums.all = all.lanes();
-        self.sums.visible = visible.lanes();
-        self.sums.squares = squares.lanes();
-    }
-}
-
 /// The visible share of two patches, sampled until its standard error is at most `wanted`, or
-/// 65,536 samples have been taken.
-pub(crate) fn share(sampler: &impl Sampler, stream: Stream, wanted: f64) -> Share {
-    let shifts = shifts(stream);
-    let mut sums = Sums::default();
-    let mut samples = 0..FEWEST;
+/// the most samples have been taken.
+pub(crate) fn share(sampler: &impl Sampler, mut stream: Stream, wanted: f64) -> Share {
+    let pieces = 0..sampler.pieces();
+    let lattice = |_| (Lattice::new(Block::WHOLE, &mut stream), Sums::default());
+    let mut lattices: Vec<(Lattice, Sums)> = pieces.map(lattice).collect();
+    let (mut first, mut last) = (0, FEWEST);
     loop {
-        dispatch(Measure {
-            sampler,
-            shifts: &shifts,
-            samples: samples.clone(),
-            sums: &mut sums,
-        });
-        let share = sums.share(sampler);
-        if share.error <= wanted || samples.end == MOST {
-            return share;
+        let mut cells = Vec::with_capacity(lattices.len());
+        for (piece, (lattice, sums)) in lattices.iter_mut().enumerate() {
+            dispatch(Measure {
+                sampler,
+                piece,
+                lattice,
+                samples: first..last,
+                sums,
+            });
+            cells.push(Cell::new(Region::whole(piece), last, sums));
         }
-        samples = samples.end..2 * samples.end;
-    }
-}
-
-pub(crate) fn shifts(mut stream: Stream) -> Shifts {
-    std::array::from_fn(|_| std::array::from_fn(|_| stream.uniform()))
-}
-
-impl Sums {
-    fn share(&self, sampler: &impl Sampler) -> Share {
-        let sum = |lanes: &[f64; LANES]| lanes.iter().sum::<f64>();
-        let all = sum(&self.all);
-        if all <= 0.0 {
-            // No sample saw the fronts of both, though there is something to see: nothing is known.
-            return Share {
-                value: 1.0,
-                error: 1.0,
-            };
-        }
-        let (value, scatter) = ratio(&self.visible, &self.all);
-        // Samples of little weight hardly count.
-        let unseen = sampler.unseen(sum(&self.squares) / (all * all));
-        Share {
-            // But for rounding it is.
-            value: value.clamp(0.0, 1.0),
-            error: scatter.max(unseen),
+        match Total::of(&cells, sampler) {
+            None if last == IN_ONE => return Share::UNKNOWN,
+            Some(total) if total.error() <= wanted => return total.share(wanted),
+            Some(total) if last == IN_ONE => {
+                let cells = even_cells(sampler, &mut stream, (&cells, total.value));
+                return share_of_cells(sampler, cells, stream, wanted);
+            }
+            _ => (first, last) = (last, 2 * last),
         }
     }
 }
 
-/// The ratio of the sums of two numbers under each shift, and its standard error by their scatter.
-pub(crate) fn ratio(part: &[f64; LANES], all: &[f64; LANES]) -> (f64, f64) {
-    let total: f64 = all.iter().sum();
-    let ratio = part.iter().sum::<f64>() / total;
-    let residual = |(part, all): (&f64, &f64)| (part - ratio * all).powi(2);
-    let squares: f64 = part.iter().zip(all).map(residual).sum();
-    let lanes = LANES as f64;
-    (ratio, (lanes * squares / (lanes - 1.0)).sqrt() / total)
+/// Cells of equal size, which have as many samples together as those of whole pieces.
+fn even_cells(
+    sampler: &impl Sampler,
+    stream: &mut Stream,
+    (wholes, share): (&[Cell], f64),
+) -> Vec<Cell> {
+    let halvings = (IN_ONE / IN_CELL).ilog2();
+    let mut cells = Vec::with_capacity(wholes.len() << halvings);
+    for whole in wholes {
+        let mut regions = vec![whole.region];
+        for _ in 0..halvings {
+            let halves = regions.iter().flat_map(|r| r.halves(sampler.coordinates()));
+            regions = halves.collect();
+        }
+        let part = whole.variance(share) / regions.len() as f64;
+        let sampled = |region: Region| region.sampled(sampler, stream, part);
+        cells.extend(regions.into_iter().map(sampled));
+    }
+    cells
 }
 
-/// Generates a lattice in the order of van der Corput, so that every power of two of its points
-/// is a lattice too (Cools, Kuo & Nuyens, "Constructing Embedded Lattice Rules for Multivariate
-/// Integration", 2006). Found bit by bit, with the 4000 best of each size kept, by the variance that
-/// folded lattices leave in three coordinates and in four; sizes of 16 to 128 points count most. What is
-/// published is made for thousands of points.
-const GENERATOR: [u32; 4] = [1, 7597, 3013, 7805];
-
-/// A coordinate of the `k`-th point of the lattice.
-#[inline(always)]
-fn on_lattice(k: usize, c: usize) -> f64 {
-    // Integers multiply modulo 1.
-    let turns = (k as u32).reverse_bits().wrapping_mul(GENERATOR[c]);
-    f64::from(turns) / (1u64 << u32::BITS) as f64
-}
-
-/// A coordinate of the `k`-th point of the lattice under each shift, folded: the integrand is then
-/// as good as periodic (Hickernell, "Obtaining O(N^-2+e) Convergence for Lattice Quadrature
-/// Rules", 2002).
-#[inline(always)]
-pub(crate) fn coordinate<S: Simd>(simd: S, k: usize, c: usize, shifts: &Shifts) -> S::F64 {
-    let one = simd.splat_f64(1.0);
-    let x = simd.splat_f64(on_lattice(k, c)) + simd.f64(&shifts[c]);
-    let x = x.if_less(one, x, x - one);
-    let twice = x + x;
-    twice.min(one + one - twice)
+/// The visible share by cells, where that of one lattice is not enough.
+fn share_of_cells(
+    sampler: &impl Sampler,
+    mut cells: Vec<Cell>,
+    mut stream: Stream,
+    wanted: f64,
+) -> Share {
+    let mut taken = cells.len() * IN_CELL;
+    loop {
+        let Some(total) = Total::of(&cells, sampler) else {
+            return Share::UNKNOWN;
+        };
+        if total.error() <= wanted || taken >= MOST {
+            return total.share(wanted);
+        }
+        // Cells add to the error by their variance, and equal parts take the fewest samples.
+        let aim = wanted.max(LESS_ERROR * total.scatter);
+        let most = aim / (cells.len() as f64).sqrt();
+        let mut next = Vec::with_capacity(2 * cells.len());
+        for cell in &cells {
+            let is_enough =
+                total.scatter_in(cell) <= most && total.unseen_in(cell, sampler) <= wanted;
+            if is_enough {
+                next.push(*cell);
+            } else {
+                next.extend(cell.halves(sampler, &mut stream, total.value));
+                taken += 2 * IN_CELL;
+            }
+        }
+        cells = next;
+    }
 }
 
 #[cfg(test)]

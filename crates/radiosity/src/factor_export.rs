@@ -216,6 +216,7 @@ impl<'a> FactorTable<'a> {
                 rays_error,
                 visible,
                 error,
+                missed: _,
             } = *facts;
             record.push(row.area.to_string());
             record.extend([fronts, backs, background].map(|share| format!("{share:.9}")));

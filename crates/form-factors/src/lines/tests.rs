@@ -79,7 +79,7 @@ fn light_is_the_integral_of_the_kernel() {
             continue;
         };
         let [i, j] = [0, 1].map(|k: usize| &mesh.patches[k]);
-        let targets = [i, j].map(Target::new);
+        let targets = [i, j].map(|patch| Target::new(&patch.polygon, patch.normal));
         let fan = &targets[1].fans[count % 2];
         let expected = expected(&mesh, fan);
         let total: f64 = expected.iter().sum();
@@ -101,5 +101,56 @@ fn light_is_the_integral_of_the_kernel() {
             }
         }
         count += 1;
+    }
+}
+
+/// The mean light of places drawn along a line, and the light on all of it.
+struct Drawn<'a>([&'a Target; 2]);
+
+impl Kernel for Drawn<'_> {
+    type Output = [f64; 2];
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> [f64; 2] {
+        const PLACES: usize = 1000;
+        let Drawn([from, across]) = self;
+        let half = simd.splat_f64(0.5);
+        let p = points(simd, from, half, half);
+        let light = light(simd, (from, &p), (across.normal, &across.fans[0]), half);
+        let mut sum = 0.0;
+        if light.bright.from.less(light.bright.to) == 0 {
+            return [0.0; 2];
+        }
+        for k in 0..PLACES {
+            let way = simd.splat_f64((k as f64 + 0.5) / PLACES as f64);
+            let (at, drawn) = light.at(simd, way);
+            assert!(light.bright.from.less(at) != 0 && at.less(light.bright.to) != 0);
+            sum += drawn.lanes()[0] / PLACES as f64;
+        }
+        [sum, light.over(simd, light.bright).lanes()[0]]
+    }
+}
+
+/// Places are drawn with the density that their light is divided by, from any point.
+#[test]
+fn drawn_places_add_up_to_the_line() {
+    let mut rng = Pcg64Mcg::seed_from_u64(4);
+    for _ in 0..200 {
+        let [corner, a, b] = [4.0, 2.0, 2.0].map(|size| vector(&mut rng, size));
+        let triangles = [
+            [DVec3::ZERO, DVec3::X, DVec3::Y],
+            [corner, corner + a, corner + b],
+        ];
+        let targets = triangles.map(|corners| {
+            let polygon = Polygon::triangle(corners);
+            Target::new(&polygon, polygon.normal())
+        });
+        for set in InstructionSet::available() {
+            let [drawn, light] = set.run(Drawn([&targets[0], &targets[1]]));
+            assert!(
+                (drawn - light).abs() <= 1e-5 * light.abs(),
+                "{drawn} {light}"
+            );
+        }
     }
 }

@@ -1,13 +1,14 @@
-//! Shares by segments and by lines, against each other and against what is known of them.
+//! Shares by lines, against rays and against what is known of them.
 
 use super::*;
 use crate::blocker::Blocker;
-use crate::exchange;
-use crate::lines::Lines;
-use crate::segments::{Blocked, Segments};
-use crate::target::{Fan, Target};
+use crate::fan::Fan;
+use crate::lattice::ratio;
+use crate::lines::{Blocked, Lines};
+use crate::target::Target;
 use radiosity_geometry::{DVec3, Divisions, Mesh, Occluders, Shape, Surface, subdivide};
-use radiosity_simd::InstructionSet;
+use radiosity_simd::{Float, InstructionSet, LANES};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A trapezoid and a triangle that face each other, and two things between them.
 fn scene() -> Mesh {
@@ -35,47 +36,51 @@ fn scene() -> Mesh {
     subdivide(&surfaces, Divisions::uniform(1)).unwrap()
 }
 
-fn targets(mesh: &Mesh) -> [Target; 2] {
-    [0, 1].map(|k: usize| Target::new(&mesh.patches[k]))
-}
-
 fn blockers(mesh: &Mesh) -> Vec<Blocker> {
     let faces = mesh.faces[2..].iter();
     faces.map(|face| Blocker::new(&face.polygon)).collect()
 }
 
-/// The sums over some samples, on an instruction set.
+/// From the points of one of the first two patches to the other.
+fn lines<'a>(mesh: &Mesh, [from, across]: [usize; 2], blocked: &Blocked<'a>) -> Lines<'a> {
+    let [from, across] = [from, across].map(|k| &mesh.patches[k]);
+    Lines::new(
+        (from.polygon.corners(), from.normal),
+        Target::new(&across.polygon, across.normal),
+        blocked,
+    )
+}
+
+fn stream() -> Stream {
+    Stream::of_pair(0, 0, 1)
+}
+
+/// The sums over some samples of the first piece, on an instruction set.
 fn sums(set: InstructionSet, sampler: &impl Sampler, samples: usize) -> Sums {
     let mut sums = Sums::default();
     set.run(Measure {
         sampler,
-        shifts: &shifts(Stream::of_pair(0, 0, 1)),
+        piece: 0,
+        lattice: &Lattice::new(Block::WHOLE, &mut stream()),
         samples: 0..samples,
         sums: &mut sums,
     });
     sums
 }
 
-/// The sums over some segments, on an instruction set.
-fn segment_sums(set: InstructionSet, blocked: Blocked<'_>, samples: usize) -> Sums {
-    let [i, j] = targets(&scene());
-    let targets = [&i, &j];
-    sums(set, &Segments { targets, blocked }, samples)
-}
-
 #[test]
 fn all_instruction_sets_give_the_same_bits() {
     let mesh = scene();
-    let (targets, blockers) = (targets(&mesh), blockers(&mesh));
+    let (blockers, occluders) = (blockers(&mesh), Occluders::new(&mesh));
+    let faces = [0, 1].map(|k: usize| mesh.patches[k].face);
     let run = |set| {
-        let lines =
-            |from: usize, across: usize| Lines::new(&targets[from], &targets[across], &blockers);
+        let sums = |pair, blocked| sums(set, &lines(&mesh, pair, &blocked), 100);
         let all = [
-            segment_sums(set, Blocked::By(&blockers), 100),
-            sums(set, &lines(0, 1), 100),
-            sums(set, &lines(1, 0), 100),
+            sums([0, 1], Blocked::By(&blockers)),
+            sums([1, 0], Blocked::By(&blockers)),
+            sums([0, 1], Blocked::Somehow(&occluders, faces)),
         ];
-        all.map(|sums| [sums.all, sums.visible, sums.squares])
+        all.map(|sums| [sums.all, sums.visible])
     };
     let portable = InstructionSet::available().pop().unwrap();
     for set in InstructionSet::available() {
@@ -83,118 +88,158 @@ fn all_instruction_sets_give_the_same_bits() {
     }
 }
 
-/// Faces that are listed block what the tree of all faces says is blocked.
+/// Of any polygons that face each other, the integral of the kernel is the unoccluded exchange, of
+/// patches that touch, too: points, lines, and places on lines have the density that they are
+/// divided by.
 #[test]
-fn lists_and_trees_agree() {
-    let mesh = scene();
-    let occluders = Occluders::new(&mesh);
-    let faces = [0, 1].map(|k: usize| mesh.patches[k].face);
-    let set = InstructionSet::current();
-    let listed = segment_sums(set, Blocked::By(&blockers(&mesh)), 500);
-    let traced = segment_sums(set, Blocked::Somehow(&occluders, faces), 500);
-    assert_eq!(listed.visible, traced.visible);
-}
-
-/// Lines across a triangle or a trapezoid find the share that segments find, within both errors.
-#[test]
-fn lines_and_segments_agree() {
-    let mesh = scene();
-    let [i, j] = targets(&mesh);
-    let blockers = blockers(&mesh);
-    let stream = || Stream::of_pair(0, 0, 1);
-    let segments = Segments {
-        targets: [&i, &j],
-        blocked: Blocked::By(&blockers),
-    };
-    let expected = share(&segments, stream(), 0.0);
-    for (from, across) in [(&i, &j), (&j, &i)] {
-        let lines = Lines::new(from, across, &blockers);
-        let found = share(&lines, stream(), 0.0);
-        assert!(found.error < 0.5 * expected.error);
-        let error = 4.0 * (found.error + expected.error);
-        assert!(
-            (found.value - expected.value).abs() < error,
-            "{found:?} {expected:?}"
-        );
-    }
-}
-
-/// The mean of the kernel over the points is the unoccluded exchange, on a trapezoid and on a
-/// triangle: points and weights are uniform in area. Their error is known from the shifts.
-#[test]
-fn points_are_uniform() {
-    let mesh = scene();
-    let points = 4096;
-    let found = segment_sums(InstructionSet::current(), Blocked::By(&[]), points);
-    assert_eq!(found.all, found.visible);
-    let [i, j] = [0, 1].map(|k: usize| &mesh.patches[k]);
-    let corners = |k: usize| mesh.patches[k].polygon.corners();
-    let exact = crate::contour::exchange(corners(0), corners(1), 1e-12);
-    // On triangles the Jacobian is left out.
-    let scale = j.area / (std::f64::consts::PI * points as f64);
-    for sum in found.all {
-        assert!((scale * sum / exact - 1.0).abs() < 1e-3, "{sum}");
-    }
-    let kernel = exchange::kernel(i.centroid, i.normal, j.centroid, j.normal);
-    assert!((exact / (i.area * j.area * kernel) - 1.0).abs() < 0.2);
-}
-
-/// More points, a smaller error; never less than one in all points.
-#[test]
-fn errors_are_as_small_as_wanted() {
-    let mesh = scene();
-    let [i, j] = targets(&mesh);
-    let blockers = blockers(&mesh);
-    let measure = |wanted| {
-        let segments = Segments {
-            targets: [&i, &j],
-            blocked: Blocked::By(&blockers),
-        };
-        share(&segments, Stream::of_pair(0, 0, 1), wanted)
-    };
-    let fine = measure(0.0);
-    for wanted in [0.1, 0.01, 0.003] {
-        let rough = measure(wanted);
-        assert!(rough.error <= wanted);
-        assert!((rough.value - fine.value).abs() < 4.0 * wanted);
-    }
-    assert!((0.1..0.9).contains(&fine.value));
-    assert!(fine.error >= 1.0 / (LANES * MOST) as f64);
-}
-
-/// The variance that shifts leave of a lattice, for a worst function of the first coordinates with
-/// bounded slopes at the borders: folded, its spectrum falls as the square of each frequency. The sum
-/// of their fourth powers is Bernoulli's polynomial.
-fn variance(coordinates: usize, samples: usize) -> f64 {
-    let spectrum = |x: f64| {
-        let bernoulli = x.powi(4) - 2.0 * x.powi(3) + x * x - 1.0 / 30.0;
-        1.0 - std::f64::consts::TAU.powi(4) / 24.0 * bernoulli
-    };
-    let at = |k: usize| {
-        (0..coordinates)
-            .map(|c| spectrum(on_lattice(k, c)))
-            .product::<f64>()
-    };
-    (0..samples).map(at).sum::<f64>() / samples as f64 - 1.0
-}
-
-/// From eight points to the most, four times as many never leave more than a sixteenth of the
-/// variance of lines, and an eighth of that of rays and segments.
-#[test]
-fn lattices_of_all_sizes_are_good() {
-    for (coordinates, gain) in [(3, 16.0), (4, 8.0)] {
-        let mut samples = 8;
-        while 4 * samples <= MOST {
-            let (few, many) = [samples, 4 * samples]
-                .map(|n| variance(coordinates, n))
-                .into();
-            assert!(
-                gain * many < few,
-                "{coordinates} {samples}: {few:.2e} {many:.2e}"
-            );
-            samples *= 2;
+fn samples_add_up_to_the_exchange() {
+    let p = DVec3::new;
+    let wall = Shape::Quad([
+        p(0.0, 0.0, 0.0),
+        p(0.0, 0.0, 2.0),
+        p(2.0, 0.0, 3.0),
+        p(3.0, 0.0, 0.0),
+    ]);
+    let floor = Shape::Triangle([p(0.0, 0.0, 0.0), p(3.0, 0.0, 0.0), p(1.0, 2.0, 0.0)]);
+    let surfaces = [wall, floor].map(|shape| Surface {
+        shape,
+        divisions: None,
+    });
+    let touching = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
+    for mesh in [scene(), touching] {
+        let corners = |k: usize| mesh.patches[k].polygon.corners();
+        let exact = crate::contour::exchange(corners(0), corners(1), 1e-12);
+        let occluders = Occluders::new(&mesh);
+        let faces = [0, 1].map(|k: usize| mesh.patches[k].face);
+        for pair in [[0, 1], [1, 0]] {
+            for blocked in [Blocked::By(&[]), Blocked::Somehow(&occluders, faces)] {
+                let samples = 8192;
+                let sums = sums(
+                    InstructionSet::current(),
+                    &lines(&mesh, pair, &blocked),
+                    samples,
+                );
+                let (mean, error) =
+                    ratio(&sums.all, &[samples as f64 * std::f64::consts::PI; LANES]);
+                assert!(error < 1e-3 * exact && (mean - exact).abs() < 4.0 * error);
+            }
         }
     }
+}
+
+/// Lines across a triangle or a trapezoid find the share that rays find, within both errors.
+#[test]
+fn lines_and_rays_agree() {
+    let mesh = scene();
+    let (blockers, occluders) = (blockers(&mesh), Occluders::new(&mesh));
+    let faces = [0, 1].map(|k: usize| mesh.patches[k].face);
+    let rays = lines(&mesh, [0, 1], &Blocked::Somehow(&occluders, faces));
+    let expected = share(&rays, stream(), 1e-3);
+    assert!((0.1..0.9).contains(&expected.value));
+    for pair in [[0, 1], [1, 0]] {
+        let lines = lines(&mesh, pair, &Blocked::By(&blockers));
+        for wanted in [0.1, 1e-3, 1e-4, 1e-5] {
+            let found = share(&lines, stream(), wanted);
+            assert!(found.error <= wanted && found.missed == 0.0);
+            let error = 4.0 * (found.error + expected.error);
+            assert!(
+                (found.value - expected.value).abs() < error,
+                "{found:?} {expected:?}"
+            );
+        }
+    }
+}
+
+/// What is visible is on one side of a plane that is at an angle to all axes.
+#[derive(Default)]
+struct HalfSpace {
+    /// How many samples have been taken under each shift.
+    taken: AtomicUsize,
+}
+
+impl Sampler for HalfSpace {
+    fn pieces(&self) -> usize {
+        1
+    }
+
+    fn coordinates(&self) -> usize {
+        3
+    }
+
+    fn sample<S: Simd>(&self, simd: S, k: usize, _: usize, lattice: &Lattice) -> [S::F64; 2] {
+        self.taken.fetch_add(1, Ordering::Relaxed);
+        let (zero, one) = (simd.splat_f64(0.0), simd.splat_f64(1.0));
+        let [x, y, z] = [
+            lattice.coordinate(simd, k, 0),
+            lattice.coordinate(simd, k, 1),
+            lattice.coordinate(simd, k, 2),
+        ];
+        let height = x + y + z - one;
+        [one, height.if_less(zero, one, zero)]
+    }
+
+    fn unseen(&self, _: f64) -> f64 {
+        0.0
+    }
+}
+
+/// The share of a function that jumps is a sixth here. Ten times the accuracy takes ten times as
+/// many samples, and what is wanted is what is found.
+#[test]
+fn work_grows_with_accuracy_alone() {
+    let mut last = None;
+    for wanted in [1e-3, 1e-4, 1e-5] {
+        let sampler = HalfSpace::default();
+        let found = share(&sampler, stream(), wanted);
+        assert!(found.error <= wanted && found.missed == 0.0);
+        assert!(
+            (found.value - 1.0 / 6.0).abs() < 3.0 * found.error,
+            "{found:?}"
+        );
+        let taken = sampler.taken.into_inner();
+        if let Some(before) = last.replace(taken) {
+            assert!(taken < 12 * before, "{before} {taken}");
+        }
+    }
+}
+
+/// Nothing can be found out about it.
+struct Noise;
+
+impl Sampler for Noise {
+    fn pieces(&self) -> usize {
+        1
+    }
+
+    fn coordinates(&self) -> usize {
+        3
+    }
+
+    fn sample<S: Simd>(&self, simd: S, k: usize, _: usize, lattice: &Lattice) -> [S::F64; 2] {
+        // Digits of a coordinate that no lattice resolves.
+        let x = lattice.coordinate(simd, k, 0).lanes();
+        let noise = x.map(|x| (1e9 * x * x).fract());
+        [simd.splat_f64(1.0), simd.f64(&noise)]
+    }
+
+    fn unseen(&self, _: f64) -> f64 {
+        0.0
+    }
+}
+
+/// What is left of the error when all samples are taken is said to be missed, and nothing else is.
+#[test]
+fn what_is_missed_is_what_samples_leave() {
+    // Even numbers have a variance of 1/12.
+    let least = (1.0 / 12.0 / (LANES * 2 * MOST) as f64).sqrt();
+    let found = share(&Noise, stream(), 0.1 * least);
+    assert!(
+        found.error > least && found.error < 3.0 * least,
+        "{found:?}"
+    );
+    assert_eq!(found.missed, found.error - 0.1 * least);
+    let found = share(&Noise, stream(), 10.0 * least);
+    assert_eq!(found.missed, 0.0);
 }
 
 /// The shadow of a square on one parallel to it has edges along those of the square. Lines along its
@@ -217,18 +262,23 @@ fn lines_that_cross_shadows_know_more() {
         divisions: None,
     });
     let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
-    let ([i, j], blockers) = (targets(&mesh), blockers(&mesh));
-    let mut along_edges = j.clone();
-    along_edges.fans = [[c, a, b], [a, c, d]].map(Fan::new).into();
-    let share = |across: &Target, samples: usize| {
-        let lines = Lines::new(&i, across, &blockers);
-        let sums = sums(InstructionSet::current(), &lines, samples);
+    let blockers = blockers(&mesh);
+    let blocked = Blocked::By(&blockers);
+    let diagonal = lines(&mesh, [0, 1], &blocked);
+    let [i, j] = [0, 1].map(|k: usize| &mesh.patches[k]);
+    let mut target = Target::new(&j.polygon, j.normal);
+    target.fans = [[c, a, b], [a, c, d]]
+        .map(|corners| Fan::new(corners, j.normal))
+        .into();
+    let along_edges = Lines::new((i.polygon.corners(), i.normal), target, &blocked);
+    let share = |lines: &Lines<'_>, samples: usize| {
+        let sums = sums(InstructionSet::current(), lines, samples);
         ratio(&sums.visible, &sums.all)
     };
-    let (expected, _) = share(&j, MOST);
-    let (value, error) = share(&j, 64);
+    let (expected, _) = share(&diagonal, 8192);
+    let (value, error) = share(&diagonal, 1024);
     assert!((value - expected).abs() < 4.0 * error);
-    let (value, error_along_edges) = share(&along_edges, 64);
+    let (value, error_along_edges) = share(&along_edges, 1024);
     assert!((value - expected).abs() < 4.0 * error_along_edges);
     assert!(
         2.0 * error < error_along_edges,
