@@ -113,10 +113,12 @@ impl Error {
                         .to_owned(),
                 }
             }
-            SolveError::NotFinite { patch } => Error::Unsolvable {
-                problem: format!("{error}; it belongs to `{}`", name_of(*patch)),
-                remedy: "use numbers of ordinary size in the scene".to_owned(),
-            },
+            SolveError::NotFinite { patch } | SolveError::OutOfRange { patch } => {
+                Error::Unsolvable {
+                    problem: format!("{error}; it belongs to `{}`", name_of(*patch)),
+                    remedy: "use numbers of ordinary size in the scene".to_owned(),
+                }
+            }
         }
     }
 }

@@ -16,12 +16,20 @@
 //! ```
 //!
 //! for each channel of each light by itself, with one product for all. Black rows are solved from
-//! the start. The numbers `alpha` and `beta` tell the smallest eigenvalue of `gain M`, and that
-//! tells the error.
+//! the start.
+//!
+//! A channel rests as soon as its residual is small enough. Further steps would do harm: `z` goes
+//! on falling by the recurrence long after rounding has the say, until `alpha` is a quotient of
+//! nothing. When all channels rest, the true residual is computed, of the values in single
+//! precision; where it is not small enough yet, everything begins anew from there.
+//!
+//! The numbers `alpha` and `beta` tell the smallest eigenvalue of `gain M` ([`crate::channel`]), and
+//! that tells the error.
 
 use crate::Rgb;
+use crate::channel::Channel;
 use crate::convergence::Progress;
-use crate::problem::{Problem, Values, joined, worst};
+use crate::problem::{LOST, Problem, Values, joined, ratio, worst};
 use crate::solve::Iteration;
 use radiosity_matrix::Triple;
 
@@ -31,25 +39,21 @@ pub(crate) struct ConjugateGradients<'a> {
     x: Values<f64>,
     z: Values<f64>,
     p: Values<f32>,
-    /// Per light.
-    courses: Vec<[Course; 3]>,
-    /// Per light, the smallest eigenvalue of `gain M` as far as it is known.
-    least: Vec<f64>,
-    /// Whether some `(p, M p)` of the last step was negative.
-    is_indefinite: bool,
-    /// The values in single precision with their products, once they are good enough.
-    verified: Option<(Values<f32>, Values<f64>)>,
-    /// The best residual of those.
-    best: f64,
+    /// Those of the first light, then those of the next.
+    channels: Vec<Channel>,
+    /// The best values in single precision so far.
+    best: Option<Verified>,
+    /// Whether the next step begins anew from those.
+    is_verified: bool,
 }
 
-/// The course of one channel of one light.
-#[derive(Clone, Default)]
-struct Course {
-    /// `(z, z / gain)`.
-    square: f64,
-    /// `alpha` and the `beta` after it.
-    steps: Vec<(f64, f64)>,
+/// Values in single precision, of which the residual is no matter of recurrence.
+struct Verified {
+    x: Values<f32>,
+    /// `sum_j S_ij x_j`.
+    sums: Values<f64>,
+    residual: f64,
+    error: f64,
 }
 
 impl<'a> ConjugateGradients<'a> {
@@ -65,36 +69,46 @@ impl<'a> ConjugateGradients<'a> {
             x: Values::new(),
             z: Values::new(),
             p: Values::new(),
-            courses: Vec::new(),
-            least: vec![1.0; problem.lights()],
-            is_indefinite: false,
-            verified: None,
-            best: f64::INFINITY,
+            channels: vec![Channel::default(); 3 * problem.lights()],
+            best: None,
+            is_verified: false,
         };
         iteration.restart(&x, &all_joined(&sums));
+        // A pass is taken in any case, and may as well do something.
+        iteration
+            .channels
+            .iter_mut()
+            .for_each(|of| of.rests = false);
         iteration
     }
 
     /// Begins at values whose products are known.
     fn restart(&mut self, x: &[Triple<f32>], sums: &[Triple<f64>]) {
         let problem = self.problem;
-        let active = |k: usize, c: usize| problem.gain[k / problem.lights()][c] > 0.0;
+        let is_black = |k: usize, c: usize| problem.gain[k / problem.lights()][c] == 0.0;
         self.x = x.iter().map(|x| x.map(f64::from)).collect();
         let residual = |k: usize| -> Rgb {
             let z = problem.residual_at(k, &sums[k], &x[k]);
-            std::array::from_fn(|c| if active(k, c) { z[c] } else { 0.0 })
+            std::array::from_fn(|c| if is_black(k, c) { 0.0 } else { z[c] })
         };
         self.z = (0..x.len()).map(residual).collect();
         self.p = self.z.iter().map(|z| z.map(|z| z as f32)).collect();
-        self.courses = vec![Default::default(); problem.lights()];
         let squares = self.squares();
-        for (course, square) in self.channels().zip(squares) {
-            course.square = square;
+        for (channel, square) in self.channels.iter_mut().zip(squares) {
+            channel.begin(square);
         }
+        self.observe();
     }
 
-    fn channels(&mut self) -> impl Iterator<Item = &mut Course> {
-        self.courses.as_flattened_mut().iter_mut()
+    /// Looks how large residuals are, and which channels may rest.
+    fn observe(&mut self) {
+        // Products err by as much of `p`, and what is left cannot be told from that.
+        let enough = self.tolerance.max(LOST);
+        let residuals = self.problem.ratios(|k| self.z[k]);
+        for (channel, residual) in self.channels.iter_mut().zip(residuals) {
+            channel.residual = residual;
+            channel.rests = residual <= enough || channel.is_stuck;
+        }
     }
 
     /// A sum over all rows for each channel of each light; `term` is asked by index, channel and
@@ -112,25 +126,34 @@ impl<'a> ConjugateGradients<'a> {
     }
 
     fn squares(&self) -> Vec<f64> {
-        self.reduced(|k, c, gain| self.z[k][c] * self.z[k][c] / gain)
+        // Where gains are tiny, so are residuals: their quotient is ordinary.
+        self.reduced(|k, c, gain| self.z[k][c] * (self.z[k][c] / gain))
     }
 
+    /// One step of all channels that do not rest.
     fn step(&mut self) {
-        let lights = self.problem.lights();
         let mut p = std::mem::take(&mut self.p);
         let sums = all_joined(&self.problem.sums(&mut p));
-        let products = self.reduced(|k, c, gain| {
-            let p = f64::from(p[k][c]);
-            p * (p / gain - sums[k][c])
-        });
-        self.is_indefinite = products.iter().any(|&product| product < 0.0);
-        let ratio = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
-        let squares: Vec<f64> = self.channels().map(|course| course.square).collect();
-        let alphas: Vec<f64> = squares
-            .iter()
-            .zip(&products)
-            .map(|(&a, &b)| ratio(a, b))
+        let lengths = self.reduced(|k, c, gain| f64::from(p[k][c]) * (f64::from(p[k][c]) / gain));
+        let reflected = self.reduced(|k, c, _| f64::from(p[k][c]) * sums[k][c]);
+        let channels = self.channels.iter_mut().zip(lengths).zip(reflected);
+        let alphas: Vec<f64> = channels
+            .map(|((channel, length), reflected)| channel.alpha(length, reflected))
             .collect();
+        self.go(&alphas, &p, &sums);
+        let squares = self.squares();
+        let steps = self.channels.iter_mut().zip(alphas).zip(squares);
+        let betas: Vec<f64> = steps
+            .map(|((channel, alpha), square)| channel.finish_step(alpha, square))
+            .collect();
+        self.turn(&betas, &mut p);
+        self.p = p;
+        self.observe();
+    }
+
+    /// Goes along `p`.
+    fn go(&mut self, alphas: &[f64], p: &[Triple<f32>], sums: &[Triple<f64>]) {
+        let lights = self.problem.lights();
         for k in 0..self.x.len() {
             let gain = &self.problem.gain[k / lights];
             for c in 0..3 {
@@ -140,50 +163,47 @@ impl<'a> ConjugateGradients<'a> {
                 self.z[k][c] -= alpha * (p - gain[c] * sums[k][c]);
             }
         }
-        let new = self.squares();
-        let betas: Vec<f64> = new
-            .iter()
-            .zip(&squares)
-            .map(|(&a, &b)| ratio(a, b))
-            .collect();
+    }
+
+    /// The next direction.
+    fn turn(&self, betas: &[f64], p: &mut [Triple<f32>]) {
+        let lights = self.problem.lights();
         for (k, p) in p.iter_mut().enumerate() {
             for c in 0..3 {
                 let beta = betas[3 * (k % lights) + c];
                 p[c] = (self.z[k][c] + beta * f64::from(p[c])) as f32;
             }
         }
-        self.p = p;
-        let steps = alphas.into_iter().zip(betas).zip(new);
-        for (course, (step, square)) in self.courses.as_flattened_mut().iter_mut().zip(steps) {
-            course.square = square;
-            if step.0 != 0.0 {
-                course.steps.push(step);
-            }
-        }
-        for (least, courses) in self.least.iter_mut().zip(&self.courses) {
-            *least = courses
-                .iter()
-                .map(smallest_eigenvalue)
-                .fold(*least, f64::min);
-        }
     }
 
     /// A residual over the smallest eigenvalue, relative to the values.
     fn error(&self, residual: impl Fn(usize) -> Rgb) -> f64 {
-        let residuals = self.problem.norms_of(residual);
-        let values = self.problem.norms_of(|k| self.x[k]);
-        let lights = residuals.into_iter().zip(values).zip(&self.least);
-        worst(lights.map(|((residual, value), least)| (residual / least, value)))
+        let residuals = self.problem.norms_of(residual).into_flattened();
+        let values = self.problem.norms_of(|k| self.x[k]).into_flattened();
+        let known = residuals.into_iter().zip(values).zip(&self.channels);
+        worst(known.map(|((residual, value), of)| ratio(residual / of.least, value)))
     }
 
-    /// The residual of the values in single precision, and their error.
-    fn verify(&mut self) -> (f64, f64) {
+    /// Finds the residual of the values in single precision; keeps them if they are the best.
+    fn verify(&mut self) {
         let mut x: Values<f32> = self.x.iter().map(|x| x.map(|x| x as f32)).collect();
         let sums = all_joined(&self.problem.sums(&mut x));
-        let residual = |k: usize| self.problem.residual_at(k, &sums[k], &x[k]);
-        let found = (self.problem.relative(residual), self.error(residual));
-        self.verified = Some((x, sums));
-        found
+        let at = |k: usize| self.problem.residual_at(k, &sums[k], &x[k]);
+        let (residual, error) = (self.problem.relative(at), self.error(at));
+        if residual < self.best_residual() || self.best.is_none() {
+            self.best = Some(Verified {
+                x,
+                sums,
+                residual,
+                error,
+            });
+        }
+        self.is_verified = true;
+    }
+
+    fn best_residual(&self) -> f64 {
+        let best = self.best.as_ref();
+        best.map_or(f64::INFINITY, |best| best.residual)
     }
 }
 
@@ -193,26 +213,29 @@ impl Iteration for ConjugateGradients<'_> {
     }
 
     fn advance(&mut self) -> Progress {
-        if let Some((x, sums)) = self.verified.take() {
-            self.restart(&x, &sums);
+        if let Some(best) = self.best.take_if(|_| self.is_verified) {
+            self.restart(&best.x, &best.sums);
+            self.best = Some(best);
+            self.is_verified = false;
         }
         self.step();
-        let known = self.problem.relative(|k| self.z[k]);
-        let mut stalled = false;
-        let (residual, error) = if known <= self.tolerance {
-            let (residual, error) = self.verify();
-            // What single precision has no room for does not come back by beginning anew.
-            stalled = residual > 0.5 * self.best;
-            self.best = residual.min(self.best);
-            (residual, error)
-        } else {
-            (known, self.error(|k| self.z[k]))
+        let before = self.best_residual();
+        if self.channels.iter().all(|channel| channel.rests) {
+            self.verify();
+        }
+        let (residual, error) = match &self.best {
+            Some(best) if self.is_verified => (best.residual, best.error),
+            _ => {
+                let residuals = self.channels.iter().map(|channel| channel.residual);
+                (worst(residuals), self.error(|k| self.z[k]))
+            }
         };
         Progress {
             residual,
             error: Some(error),
-            stalled,
-            suspicious: self.is_indefinite,
+            // What single precision has no room for does not come back by beginning anew.
+            stalled: self.is_verified && (residual > 0.5 * before || residual <= LOST),
+            suspicious: self.channels.iter().any(|channel| channel.is_stuck),
         }
     }
 
@@ -221,46 +244,15 @@ impl Iteration for ConjugateGradients<'_> {
     }
 
     fn finish(mut self: Box<Self>) -> (Values<f32>, Values<f64>) {
-        if self.verified.is_none() {
+        if !self.is_verified {
             self.verify();
         }
-        self.verified.take().expect("it is there now")
+        let best = self.best.expect("some values are the best");
+        (best.x, best.sums)
     }
 }
 
 /// The sums, both parts together.
 fn all_joined(sums: &[Values<f64>; 2]) -> Values<f64> {
     (0..sums[0].len()).map(|k| joined(sums, k)).collect()
-}
-
-/// Of the tridiagonal matrix that the steps make (Saad 2003, eq. 6.103), by Sturm sequences: the
-/// smallest Ritz value, which comes down to the smallest eigenvalue.
-fn smallest_eigenvalue(course: &Course) -> f64 {
-    let mut rows: Vec<(f64, f64)> = Vec::new();
-    let mut before = None;
-    for &(alpha, beta) in &course.steps {
-        let (diagonal, square) = before.map_or((0.0, 0.0), |(alpha, beta): (f64, f64)| {
-            (beta / alpha, beta / (alpha * alpha))
-        });
-        rows.push((1.0 / alpha + diagonal, square));
-        before = Some((alpha, beta));
-    }
-    let is_below_all = |shift: f64| {
-        let mut pivot = f64::INFINITY;
-        rows.iter().all(|&(diagonal, square)| {
-            pivot = diagonal - shift - square / pivot;
-            pivot > 0.0
-        })
-    };
-    // gain M = I - rho F has its smallest eigenvalue in (0, 1].
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..40 {
-        let middle = 0.5 * (low + high);
-        if is_below_all(middle) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    high
 }

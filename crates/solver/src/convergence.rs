@@ -3,8 +3,8 @@
 use crate::{Energy, Method};
 use serde::{Deserialize, Serialize};
 
-/// The course of an iteration. Norms are area-weighted L2 norms over patches and channels; of
-/// several lights, the worst counts.
+/// The course of an iteration. Norms are area-weighted L2 norms over patches; of the channels of all
+/// lights, the worst counts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Convergence {
     /// How it was solved.
@@ -21,8 +21,8 @@ pub struct Convergence {
     pub residuals: Vec<f64>,
     /// The residual of the radiosities that it started from.
     pub first_residual: f64,
-    /// An estimate of `||B - exact B|| / ||B||`, from the rate at which changes shrank; none after
-    /// too few passes.
+    /// An estimate of `||B - exact B|| / ||B||`, from the rate at which changes shrank (over all
+    /// channels of a light) or from the smallest Ritz value; none after too few passes.
     pub error: Option<f64>,
     /// The factor by which Gauss-Seidel overdid its last changes.
     pub relaxation: Option<f64>,

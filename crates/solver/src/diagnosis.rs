@@ -23,6 +23,15 @@ pub enum SolveError {
         /// The first such patch.
         patch: usize,
     },
+    /// A radiosity cannot be kept.
+    #[error(
+        "the radiosity of patch {patch} is no number that single precision holds (1.2e-38 to \
+         3.4e38 W/m^2)"
+    )]
+    OutOfRange {
+        /// The first such patch.
+        patch: usize,
+    },
 }
 
 /// Sweeps over which the residual must grow before divergence is suspected.
@@ -78,7 +87,33 @@ pub(crate) fn check_materials(system: &System<'_>) -> Result<(), SolveError> {
         let lights = system.lights.iter();
         finite(&system.reflectance[i]) && lights.into_iter().all(|light| finite(&light[i]))
     };
-    first(system, |i| !is_good(i))
+    first(system, |i| !is_good(i))?;
+    let lights = system.lights.iter();
+    let mut channels = lights.flat_map(|light| (0..3).map(move |c| (light, c)));
+    channels.try_for_each(|(light, c)| check_brightness(light, c))
+}
+
+/// That single precision holds the largest emission of a channel.
+fn check_brightness(light: &[Rgb], c: usize) -> Result<(), SolveError> {
+    let brightest = (0..light.len()).max_by(|&a, &b| light[a][c].total_cmp(&light[b][c]));
+    match brightest {
+        Some(patch) if light[patch][c] > 0.0 && !(light[patch][c] as f32).is_normal() => {
+            Err(SolveError::OutOfRange { patch })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// That a solution is made of numbers: finite ones.
+pub(crate) fn check_radiosities(lights: &[Vec<[f32; 3]>]) -> Result<(), SolveError> {
+    let is_bad = |b: &[f32; 3]| b.iter().any(|channel| !channel.is_finite());
+    match lights
+        .iter()
+        .find_map(|light| light.iter().position(is_bad))
+    {
+        Some(patch) => Err(SolveError::OutOfRange { patch }),
+        None => Ok(()),
+    }
 }
 
 /// Form factors: a pass of its own, so only where a result is no number.

@@ -29,17 +29,17 @@ impl Energy {
         let mut energies = vec![Energy::default(); lights];
         for (k, (x, sum)) in radiosity.iter().zip(sums).enumerate() {
             let (i, light) = (k / lights, k % lights);
-            let (energy, unit) = (&mut energies[light], problem.units[light]);
-            let watts = system.areas[i] * unit;
+            let (energy, unit) = (&mut energies[light], &problem.units[light]);
+            let area = system.areas[i];
             let hidden = 1.0 - system.visible[i];
             // The hidden part sees nothing else.
             let backs = (system.backs[i] - hidden).max(0.0);
-            let arrived = system.visible_area(i) * unit / problem.areas[i];
+            let arrived = system.visible_area(i) / problem.areas[i];
             for c in 0..3 {
-                let left = watts * f64::from(x[c]);
-                let emitted = watts * problem.emission[k][c];
+                let left = area * unit[c] * f64::from(x[c]);
+                let emitted = area * unit[c] * f64::from(problem.emission[k][c]);
                 energy.emitted[c] += emitted;
-                energy.absorbed[c] += (1.0 - system.reflectance[i][c]) * arrived * sum[c];
+                energy.absorbed[c] += (1.0 - system.reflectance[i][c]) * arrived * unit[c] * sum[c];
                 energy.to_backs[c] += backs * left + hidden * emitted;
                 energy.to_background[c] += system.background[i] * left;
             }

@@ -26,7 +26,7 @@
 //! which it does not come. Rooms turn out to be alike enough.
 
 use crate::convergence::Progress;
-use crate::problem::{Problem, Values, joined, worst};
+use crate::problem::{LOST, Problem, Values, joined, ratio, worst};
 use crate::solve::Iteration;
 use radiosity_matrix::Triple;
 use serde::{Deserialize, Serialize};
@@ -43,13 +43,13 @@ pub enum Relaxation {
 /// After so many sweeps the rate is looked at: the first of them are plain, and few changes are
 /// not yet those that remain.
 const LOOKS: [usize; 2] = [3, 8];
-/// Relative changes below this tell no rate: values are rounded to 2^-24 of themselves at most, in
-/// each of two sweeps, and that scatters a norm that is four times as large by some percent.
+/// Relative changes below this are roundings for the most part: those of two sweeps, which scatter.
 const ROUNDING: f64 = 4.0 * LOST;
+/// Relative changes below this tell no rate: where patches are equal, so are their roundings, and
+/// those of two sweeps are a sixteenth of this.
+const TELLING: f64 = 32.0 * LOST;
 /// Sweeps without less of a change after which none is expected.
 const SWEEPS_AT_REST: usize = 4;
-/// Relative changes below this may change nothing.
-const LOST: f64 = 1.0 / (1 << 24) as f64;
 
 pub(crate) struct GaussSeidel<'a> {
     problem: &'a Problem<'a>,
@@ -60,7 +60,8 @@ pub(crate) struct GaussSeidel<'a> {
     /// That of the last sweep.
     used: f64,
     is_automatic: bool,
-    /// The norm of each sweep's change, relative to that of the values.
+    /// The norm of each sweep's change over all channels, relative to that of the values, of the
+    /// light where it is worst.
     changes: Vec<f64>,
     /// The ratio of a change to the one before, as long as changes told it.
     rate: Option<f64>,
@@ -103,23 +104,23 @@ impl<'a> GaussSeidel<'a> {
                 let (above, below) = (&mut above[first + k], &below[first + k]);
                 let emission = &problem.emission[first + k];
                 *above = sums[k];
-                let mut squares = (0.0, 0.0);
                 for c in 0..3 {
                     let old = f64::from(x[c]);
                     let sum = above[c] + below[c];
-                    x[c] = (old + factor * (emission[c] + gain[c] * sum - old)) as f32;
+                    let wanted = f64::from(emission[c]) + gain[c] * sum;
+                    x[c] = (old + factor * (wanted - old)) as f32;
                     let new = f64::from(x[c]);
-                    squares.0 += (new - old) * (new - old);
-                    squares.1 += new * new;
+                    norm.0 += area * (new - old) * (new - old);
+                    norm.1 += area * new * new;
                 }
-                norm.0 += area * squares.0;
-                norm.1 += area * squares.1;
             }
         };
         let new = problem.exchange.sweep(&mut self.x, lights, &mut update);
         self.sums[1] = new;
-        let roots = norms.into_iter().map(|(a, b)| (a.sqrt(), b.sqrt()));
-        self.changes.push(worst(roots));
+        let changes = norms
+            .iter()
+            .map(|(change, value)| ratio(change.sqrt(), value.sqrt()));
+        self.changes.push(worst(changes));
         self.observe_rate();
     }
 
@@ -134,7 +135,7 @@ impl<'a> GaussSeidel<'a> {
     /// Over the last two changes, unless they are roundings.
     fn observe_rate(&mut self) {
         if let [.., first, _, last] = self.changes[..]
-            && last >= ROUNDING
+            && last >= TELLING
         {
             self.rate = Some((last / first).sqrt());
         }

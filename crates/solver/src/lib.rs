@@ -16,6 +16,7 @@
 //!
 //! This crate knows nothing of geometry, names or files: errors carry patch indices.
 
+mod channel;
 mod conjugate_gradients;
 mod convergence;
 mod diagnosis;
@@ -41,7 +42,7 @@ pub use solve::{Method, Params, solve};
 pub use system::System;
 
 /// Raise it whenever the same input would give another solution: it is part of its key.
-pub const VERSION: u32 = 6;
+pub const VERSION: u32 = 7;
 
 /// Red, green, blue.
 pub type Rgb = [f64; 3];

@@ -7,19 +7,29 @@ use radiosity_matrix::{SymmetricMatrix, Triple};
 /// `i * lights + k`.
 pub(crate) type Values<T> = Vec<Triple<T>>;
 
-/// `x_i = E_i + gain_i sum_j S_ij x_j`, for each light in units of its largest emission, so that
-/// no square of an ordinary number overflows or vanishes.
+/// Relative changes below this may change nothing, in single precision.
+pub(crate) const LOST: f64 = 1.0 / (1 << 24) as f64;
+/// Multiples of the largest emission from which no start is worth its passes; beyond, single
+/// precision ends.
+const OUT_OF_REACH: f64 = 1e30;
+
+/// `x_i = E_i + gain_i sum_j S_ij x_j`, for each channel of each light in units of its own largest
+/// emission: channels know nothing of each other, and no square overflows or vanishes, however
+/// bright or faint one of them is.
 pub(crate) struct Problem<'a> {
     pub(crate) exchange: &'a SymmetricMatrix,
     /// Areas that exchange light, relative to the total of all.
     pub(crate) areas: Vec<f64>,
     /// `rho_i / A_i`, with those areas, per patch.
     pub(crate) gain: Vec<Rgb>,
-    pub(crate) emission: Values<f64>,
+    /// Rounded to what radiosities can be, so that black patches have no residual, and those that
+    /// reflect next to nothing none but what they reflect: conjugate gradients weight residuals by
+    /// `1 / gain`.
+    pub(crate) emission: Values<f32>,
     /// What the numbers of each light are multiples of, in W/m^2.
-    pub(crate) units: Vec<f64>,
+    pub(crate) units: Vec<Rgb>,
     /// The norm of each light's emission.
-    norms: Vec<f64>,
+    norms: Vec<Rgb>,
 }
 
 impl<'a> Problem<'a> {
@@ -29,16 +39,12 @@ impl<'a> Problem<'a> {
         let areas: Vec<f64> = (0..system.size()).map(area).collect();
         let gain = |(rho, &area): (&Rgb, &f64)| rho.map(|rho| rho / area);
         let gain = system.reflectance.iter().zip(&areas).map(gain).collect();
-        let unit = |light: &Vec<Rgb>| {
-            let largest = light.iter().flatten().copied().fold(0.0, f64::max);
-            if largest > 0.0 { largest } else { 1.0 }
-        };
-        let units: Vec<f64> = system.lights.iter().map(unit).collect();
+        let units: Vec<Rgb> = system.lights.iter().map(|light| units_of(light)).collect();
         let at = |i: usize| {
             let lights = system.lights.iter().zip(&units);
-            lights.map(move |(light, unit)| light[i].map(|channel| channel / unit))
+            lights.map(move |(light, unit)| std::array::from_fn(|c| (light[i][c] / unit[c]) as f32))
         };
-        let emission: Values<f64> = (0..system.size()).flat_map(at).collect();
+        let emission: Values<f32> = (0..system.size()).flat_map(at).collect();
         let mut problem = Problem {
             exchange: system.exchange,
             areas,
@@ -47,7 +53,7 @@ impl<'a> Problem<'a> {
             units,
             norms: Vec::new(),
         };
-        problem.norms = problem.norms_of(|k| problem.emission[k]);
+        problem.norms = problem.norms_of(|k| problem.emission[k].map(f64::from));
         problem
     }
 
@@ -56,30 +62,32 @@ impl<'a> Problem<'a> {
         self.units.len()
     }
 
-    /// Of each light, the area-weighted L2 norm over patches and channels of `values`, which is
+    /// Of each channel of each light, the area-weighted L2 norm over patches of `values`, which is
     /// asked by index.
-    pub(crate) fn norms_of(&self, values: impl Fn(usize) -> Rgb) -> Vec<f64> {
-        let mut sums = vec![0.0; self.lights()];
+    pub(crate) fn norms_of(&self, values: impl Fn(usize) -> Rgb) -> Vec<Rgb> {
+        let mut sums = vec![[0.0; 3]; self.lights()];
         for (i, area) in self.areas.iter().enumerate() {
             for (light, sum) in sums.iter_mut().enumerate() {
                 let value = values(i * self.lights() + light);
-                *sum += area * value.iter().map(|c| c * c).sum::<f64>();
+                (0..3).for_each(|c| sum[c] += area * value[c] * value[c]);
             }
         }
-        sums.into_iter().map(f64::sqrt).collect()
+        sums.into_iter().map(|sum| sum.map(f64::sqrt)).collect()
     }
 
-    /// The largest norm of a light's `values` relative to that of its emission; lights that are
-    /// dark count as nothing.
+    /// The norms of `values` relative to those of the emission, channel by channel; 0 where it is
+    /// dark.
+    pub(crate) fn ratios(&self, values: impl Fn(usize) -> Rgb) -> Vec<f64> {
+        let norms = self.norms_of(values).into_flattened().into_iter();
+        let ratios = norms.zip(self.norms.as_flattened());
+        ratios
+            .map(|(norm, &of_emission)| ratio(norm, of_emission))
+            .collect()
+    }
+
+    /// The largest of them.
     pub(crate) fn relative(&self, values: impl Fn(usize) -> Rgb) -> f64 {
-        let ratios = self.norms_of(values).into_iter().zip(&self.norms);
-        worst(ratios.map(|(norm, &of_emission)| (norm, of_emission)))
-    }
-
-    /// The radiosities of which the emission is known alone.
-    pub(crate) fn emitted(&self) -> Values<f32> {
-        let to_f32 = |e: &Rgb| e.map(|channel| channel as f32);
-        self.emission.iter().map(to_f32).collect()
+        worst(self.ratios(values))
     }
 
     /// What is reflected where sums arrive.
@@ -94,15 +102,15 @@ impl<'a> Problem<'a> {
     /// Radiosities in W/m^2, light by light, as the methods see them.
     pub(crate) fn of_lights(&self, lights: &[Vec<Triple<f32>>]) -> Values<f32> {
         assert_eq!(lights.len(), self.lights(), "radiosities of each light");
-        let at = |(k, emission): (usize, &Triple<f64>)| -> Triple<f32> {
+        let at = |(k, emission): (usize, &Triple<f32>)| -> Triple<f32> {
             let (i, light) = (k / self.lights(), k % self.lights());
-            let gain = &self.gain[i];
             std::array::from_fn(|c| {
-                let start = (f64::from(lights[light][i][c]) / self.units[light]) as f32;
-                // Dark lights stay dark, black patches are known, and the other solution may have
+                let start = f64::from(lights[light][i][c]) / self.units[light][c];
+                // Dark channels stay dark, black patches are known, and the other solution may have
                 // been in units out of reach.
-                let is_usable = self.norms[light] > 0.0 && gain[c] > 0.0 && start.is_finite();
-                if is_usable { start } else { emission[c] as f32 }
+                let is_lit = self.norms[light][c] > 0.0 && self.gain[i][c] > 0.0;
+                let is_usable = is_lit && start.abs() < OUT_OF_REACH;
+                if is_usable { start as f32 } else { emission[c] }
             })
         };
         self.emission.iter().enumerate().map(at).collect()
@@ -110,8 +118,10 @@ impl<'a> Problem<'a> {
 
     /// The same the other way round.
     pub(crate) fn to_lights(&self, x: &[Triple<f32>]) -> Vec<Vec<Triple<f32>>> {
-        let in_watts = |x: &Triple<f32>, unit: f64| x.map(|x| (f64::from(x) * unit) as f32);
-        let light = |(k, &unit): (usize, &f64)| {
+        let in_watts = |x: &Triple<f32>, unit: &Rgb| -> Triple<f32> {
+            std::array::from_fn(|c| (f64::from(x[c]) * unit[c]) as f32)
+        };
+        let light = |(k, unit): (usize, &Rgb)| {
             let values = x.iter().skip(k).step_by(self.lights());
             values.map(|x| in_watts(x, unit)).collect()
         };
@@ -120,13 +130,14 @@ impl<'a> Problem<'a> {
 
     /// Whether nothing shines.
     pub(crate) fn is_dark(&self) -> bool {
-        self.norms.iter().all(|&norm| norm == 0.0)
+        self.norms.as_flattened().iter().all(|&norm| norm == 0.0)
     }
 
     /// `E_i + gain_i sum_j S_ij x_j - x_i` at one index, of which the sum is given.
     pub(crate) fn residual_at(&self, k: usize, sum: &Rgb, x: &Triple<f32>) -> Rgb {
         let (emission, gain) = (&self.emission[k], &self.gain[k / self.lights()]);
-        std::array::from_fn(|c| emission[c] + gain[c] * sum[c] - f64::from(x[c]))
+        let [emission, x] = [emission, x].map(|values| values.map(f64::from));
+        std::array::from_fn(|c| emission[c] + gain[c] * sum[c] - x[c])
     }
 
     /// `sum_j S_ij x_j`, in two parts: over `j < i` and over `j > i`.
@@ -145,12 +156,21 @@ pub(crate) fn joined([above, below]: &[Values<f64>; 2], k: usize) -> Rgb {
     std::array::from_fn(|c| above[k][c] + below[k][c])
 }
 
-/// The largest of some ratios, of which those to nothing do not count. What is not a number is the
-/// worst.
-pub(crate) fn worst(ratios: impl Iterator<Item = (f64, f64)>) -> f64 {
+/// A part relative to the whole, of which nothing is worth nothing.
+pub(crate) fn ratio(part: f64, whole: f64) -> f64 {
+    if whole == 0.0 { 0.0 } else { part / whole }
+}
+
+/// The largest of some numbers. What is not a number is the worst.
+pub(crate) fn worst(numbers: impl IntoIterator<Item = f64>) -> f64 {
     let larger = |a: f64, b: f64| if a >= b || a.is_nan() { a } else { b };
-    ratios
-        .filter(|&(_, whole)| whole != 0.0)
-        .map(|(part, whole)| part / whole)
-        .fold(0.0, larger)
+    numbers.into_iter().fold(0.0, larger)
+}
+
+/// The largest emission of each channel, or 1.
+fn units_of(light: &[Rgb]) -> Rgb {
+    let largest = |c: usize| light.iter().map(|e| e[c]).fold(0.0, f64::max);
+    [0, 1, 2]
+        .map(largest)
+        .map(|unit| if unit > 0.0 { unit } else { 1.0 })
 }

@@ -35,7 +35,7 @@ pub struct Params {
     /// The method.
     pub method: Method,
     /// Relative residual `||E + rho F B - B|| / ||E||` to reach (area-weighted L2 norm over
-    /// patches and channels) for each light. Below some 1e-7, single precision has no better
+    /// patches) in each channel of each light. Below some 1e-7, single precision has no better
     /// solution.
     pub tolerance: f64,
     /// Most passes over the matrix to take.
@@ -72,7 +72,8 @@ pub(crate) trait Iteration {
 ///
 /// # Errors
 ///
-/// If there is no solution, or the input has numbers that are none.
+/// If there is no solution, or one that single precision does not hold, or if the input has numbers
+/// that are none.
 ///
 /// # Panics
 ///
@@ -85,7 +86,7 @@ pub fn solve(
 ) -> Result<Solution, SolveError> {
     diagnosis::check_materials(system)?;
     let problem = Problem::new(system);
-    let mut x = problem.emitted();
+    let mut x = problem.emission.clone();
     let mut sums = problem.sums(&mut x);
     let direct = problem.to_lights(&problem.reflected(&sums));
     if let Some(start) = start {
@@ -123,6 +124,9 @@ pub fn solve(
     let relaxation = iteration.relaxation();
     let (x, sums) = iteration.finish();
     let residual = problem.relative(|k| problem.residual_at(k, &sums[k], &x[k]));
+    let lights = problem.to_lights(&x);
+    diagnosis::check_radiosities(&lights)?;
+    diagnosis::check_radiosities(&direct)?;
     Ok(Solution {
         report: Convergence {
             method: params.method,
@@ -135,7 +139,7 @@ pub fn solve(
             relaxation,
             energies: Energy::of_lights(system, &problem, &x, &sums),
         },
-        lights: problem.to_lights(&x),
+        lights,
         direct,
     })
 }

@@ -91,7 +91,10 @@ proptest! {
                     })
                 };
                 let defects: Vec<Rgb> = (0..x.len()).map(defect).collect();
-                direct = direct.max(norm(&case, &defects) / norm(&case, emission));
+                for c in (0..3).filter(|&c| emission.iter().any(|e| e[c] > 0.0)) {
+                    let [defect, emission] = [&defects, emission].map(|of| channel(of, c));
+                    direct = direct.max(norm(&case, &defect) / norm(&case, &emission));
+                }
             }
             // Radiosities are at most ten times the emission, and rounded once more when they are
             // put back into watts.

@@ -4,6 +4,7 @@ mod iterates;
 mod lights;
 mod methods;
 mod progressive;
+mod scales;
 mod trouble;
 
 use crate::*;
@@ -135,6 +136,11 @@ fn norm(case: &Case, values: &[Rgb]) -> f64 {
     values.iter().enumerate().map(square).sum::<f64>().sqrt()
 }
 
+/// One channel alone.
+fn channel(values: &[Rgb], c: usize) -> Vec<Rgb> {
+    values.iter().map(|v| [v[c], 0.0, 0.0]).collect()
+}
+
 fn in_double(radiosity: &[[f32; 3]]) -> Vec<Rgb> {
     radiosity.iter().map(|b| b.map(f64::from)).collect()
 }
@@ -159,7 +165,8 @@ fn exact(case: &Case) -> Vec<Rgb> {
         let next: Vec<Rgb> = (0..x.len()).map(bounced).collect();
         let change = distance(case, &x, &next);
         x = next;
-        if change < 1e-15 {
+        // Of darkness, it is no number.
+        if change.is_nan() || change < 1e-15 {
             return x;
         }
     }
