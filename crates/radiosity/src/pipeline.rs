@@ -10,6 +10,7 @@ use radiosity_cache::{Id, Key, Store};
 use radiosity_form_factors::{self as form_factors, FormFactors};
 use radiosity_geometry::{self as geometry, Mesh};
 use radiosity_scene::{Material, Mode, Scene};
+use radiosity_solver::SolveError;
 use std::sync::OnceLock;
 
 mod factors;
@@ -137,6 +138,20 @@ impl<'a> Pipeline<'a> {
             Mode::MonteCarlo => "the variance is unbounded where patches touch; more --pairs help",
             Mode::Accurate => "a smaller --tolerance helps",
         }
+    }
+
+    /// Refuses light that single precision does not hold, such as that of a lamp brightened beyond it.
+    fn finite(&self, light: PatchLight) -> Result<PatchLight, Error> {
+        let is_bad = |b: &[f32; 3]| b.iter().any(|channel| !channel.is_finite());
+        match light.radiosity.iter().position(is_bad) {
+            Some(patch) => Err(self.of_solver(&SolveError::OutOfRange { patch })),
+            None => Ok(light),
+        }
+    }
+
+    /// Names the surfaces that an error of the solver is about.
+    fn of_solver(&self, error: &SolveError) -> Error {
+        Error::of_solver(error, |patch| self.surface_name(patch).to_owned())
     }
 
     /// What each patch emits itself, with the lights as bright as the scene has them.

@@ -3,6 +3,7 @@
 mod place;
 
 use place::{Place, SCENE};
+use radiosity::{Pipeline, Silent, Sources};
 use std::fs;
 
 /// The radiosities of a table, without its names.
@@ -176,4 +177,34 @@ fn the_oracle_is_dimmed_too() {
         // Tables have standard errors to four places.
         assert!((0.5 * bright - dim).abs() <= 1e-4, "{bright} {dim}");
     }
+}
+
+/// What single precision does not hold is no solution, by whatever way it comes about, and nothing
+/// of it is kept.
+#[test]
+fn light_out_of_range_is_an_error() {
+    let place = Place::new();
+    let mut scene = radiosity::scene::load(&place.path("room.toml")).unwrap();
+    let store = radiosity::cache::Store::new(place.path("c"));
+    let lamp = scene.lights[0].name.clone();
+    let mut code_with = |emission: f64, dim: f64| {
+        let is_lamp = |material: &&mut radiosity::scene::Material| material.name == lamp;
+        scene.materials.iter_mut().find(is_lamp).unwrap().emission = [1.0, emission, 0.0];
+        scene.lights[0].dim = dim;
+        let pipeline = Pipeline::new(&scene, Some(&store), &Silent).unwrap();
+        let solved = pipeline.solution(Sources::Cached).map(|_| ());
+        let preview = pipeline.preview(0.25).map(|_| ());
+        [solved, preview].map(|result| result.map_err(|error| error.exit_code()))
+    };
+    assert_eq!(code_with(1e39, 1.0), [Err(5); 2]);
+    let solutions = || {
+        let entries = store.list().unwrap().into_iter();
+        entries
+            .filter(|entry| entry.stage.as_deref().ok() == Some("solution"))
+            .count()
+    };
+    assert_eq!(solutions(), 0);
+    assert_eq!(code_with(1e37, 1.0), [Ok(()); 2]);
+    assert_eq!(code_with(1e37, 1000.0), [Err(5); 2]);
+    assert_eq!(solutions(), 1, "brightened, it is the same solution");
 }

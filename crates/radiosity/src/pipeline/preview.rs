@@ -72,11 +72,11 @@ impl Pipeline<'_> {
         }
         self.observer.end();
         Ok(Preview {
-            light: PatchLight {
+            light: self.finite(PatchLight {
                 radiosity: light.lights().concat(),
                 direct: vec![[0.0; 3]; areas.len()],
                 visible: vec![1.0; areas.len()],
-            },
+            })?,
             share: ((rows.len() * areas.len()) as f64 / pairs).min(1.0),
             unshot: light.unshot(),
         })

@@ -122,7 +122,7 @@ impl Pipeline<'_> {
             untouched
         });
         Ok(Solved {
-            light: self.light_of(&solution, visible),
+            light: self.finite(self.light_of(&solution, visible))?,
             energy: solution.energy(&settings::dimming(self.scene)),
             start_worth: self
                 .start
@@ -219,8 +219,7 @@ impl Pipeline<'_> {
             reached = reached.max(now);
         });
         self.observer.end();
-        let name_of = |patch| self.surface_name(patch).to_owned();
-        solution.map_err(|error| Error::of_solver(&error, name_of))
+        solution.map_err(|error| self.of_solver(&error))
     }
 
     /// Where each light starts: from what the other solution has of it, or from its emission.
