@@ -3,7 +3,8 @@
 use super::*;
 use crate::exchange;
 use crate::gauss;
-use radiosity_geometry::{DVec3, Divisions, Mesh, Shape, Surface, subdivide};
+use crate::target::points;
+use radiosity_geometry::{Divisions, Mesh, Polygon, Shape, Surface, subdivide};
 use radiosity_simd::{InstructionSet, Kernel};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
