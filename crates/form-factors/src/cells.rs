@@ -8,9 +8,9 @@ use std::ops::Range;
 
 /// Samples of the lattice of a cell, under each shift.
 pub(crate) const IN_CELL: usize = 16;
-/// Halving a cell in which the visible kernel jumps or bends somewhere leaves each half with a tenth
-/// or more of the variance, on average over the axes. One that seems to have less than this has
-/// missed what it is about.
+/// A jump that passes through both halves of a cell leaves each a quarter of its variance, since each
+/// has half of the volume. What bends is half as high if the cell is halved across the bend, and then a
+/// sixteenth is left. A half that seems to have less may well have missed what it is about.
 const LEAST_LEFT: f64 = 1.0 / 16.0;
 
 /// By shift: the sums of the kernel, and of the kernel where there is a view.

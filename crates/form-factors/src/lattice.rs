@@ -107,7 +107,7 @@ mod tests {
     }
 
     /// From eight points to 8,192, four times as many never leave more than a sixteenth of the
-    /// variance of slices, and an eighth of that of rays.
+    /// variance of lines, and an eighth of that of rays.
     #[test]
     fn lattices_of_all_sizes_are_good() {
         for (coordinates, gain) in [(3, 16.0), (4, 8.0)] {

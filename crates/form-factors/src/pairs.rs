@@ -3,6 +3,7 @@
 
 use crate::accurate::{Accurate, Exchange};
 use crate::estimate::{Estimation, Method, Room};
+use crate::lines::MOST_BLOCKERS;
 use crate::obstacles::Between;
 use crate::part::Part;
 use crate::tiles::{Group, Tile};
@@ -10,7 +11,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 /// So many faces are listed between two parts; among more, segments find their way by the tree.
-pub(crate) const FEW: usize = 64;
+pub(crate) const FEW: usize = MOST_BLOCKERS;
 /// So many for the regular rule, which tries a face on all segments of a pair at once, where tiles have
 /// too many between them.
 const MANY: usize = 256;

@@ -2,9 +2,11 @@
 //!
 //! All samples are of one lattice at first. Where that is not enough, the cube of their coordinates
 //! is halved again and again, into cells with a small lattice each. Shadows end at surfaces in the
-//! cube, and only cells that these pass through are halved further. The error of `n` samples goes with
-//! `1 / n` if the integrand jumps at such a surface, and with `n^-3/2` if it has a kink there. (With
-//! one lattice it goes with `n^-2/3` where there are jumps.)
+//! cube, and only cells that these pass through are halved further.
+//!
+//! Of cells of size `h`, some `h^-2` are at such a surface, and they take `n ~ h^-2` samples. If the
+//! integrand jumps there, each has an error of its volume, `h^3`; errors are independent, and add up to
+//! `h^-1 h^3 = h^2 ~ 1 / n`.
 
 use crate::cells::{Cell, IN_CELL, Measure, Region, Sums, Total};
 use crate::lattice::{Block, Lattice};
