@@ -11,7 +11,7 @@ pub(crate) const FORM_FACTORS: &str = "form-factors";
 pub(crate) const CLOSURE: &str = "closure";
 pub(crate) const SOLUTION: &str = "solution";
 /// Raise it whenever the layout of [`FactorFacts`] changes: it is part of their keys.
-pub(crate) const FACTORS_VERSION: u32 = 8;
+pub(crate) const FACTORS_VERSION: u32 = 9;
 /// The same for [`SolutionFacts`].
 pub(crate) const SOLUTION_VERSION: u32 = 10;
 
