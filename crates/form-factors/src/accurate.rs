@@ -3,7 +3,7 @@
 
 use crate::blocker::Blocker;
 use crate::budget::Budget;
-use crate::element::Element;
+use crate::element::{Element, Elements};
 use crate::far::{self, FarTile};
 use crate::lines::{Blocked, Lines};
 use crate::obstacles::{Between, Obstacles};
@@ -24,8 +24,8 @@ const SEED: u64 = 0;
 /// Patches, ready for the accurate estimator.
 pub(crate) struct Accurate<'a> {
     mesh: &'a Mesh,
-    elements: Vec<Element>,
-    far_tiles: Vec<FarTile>,
+    elements: Elements,
+    far_tiles: Vec<Option<FarTile>>,
     tolerance: f64,
     pub(crate) budget: Budget,
 }
@@ -55,10 +55,10 @@ impl Exchange {
 
 impl<'a> Accurate<'a> {
     pub(crate) fn new(mesh: &'a Mesh, tiling: &Tiling, tolerance: f64) -> Accurate<'a> {
-        let elements: Vec<Element> = mesh.patches.iter().map(Element::new).collect();
+        let elements = Elements::new(mesh);
         let far_tile = |tile: &Tile| {
             let patches = tile.patches.iter();
-            FarTile::new(&patches.map(|&patch| &elements[patch]).collect())
+            FarTile::new(&patches.map(|&patch| elements.single(patch)).collect())
         };
         Accurate {
             mesh,
@@ -67,6 +67,11 @@ impl<'a> Accurate<'a> {
             tolerance,
             budget: Budget::new(tolerance, mesh.patches.len()),
         }
+    }
+
+    /// By patch, the area that exchanges light.
+    pub(crate) fn areas(&self) -> Vec<f64> {
+        self.elements.areas()
     }
 
     /// The exchange of a patch with those of a tile that are far from it, if nothing stood between
@@ -79,19 +84,33 @@ impl<'a> Accurate<'a> {
     ) -> [Option<Exchange>; LANES] {
         let error = UNOCCLUDED_SHARE * self.tolerance;
         let tolerance = obstacles.occluders.plane_tolerance();
-        far::exchange(&self.elements[i], &self.far_tiles[tile], error, tolerance)
+        match (self.elements.single(i), &self.far_tiles[tile]) {
+            (Some(element), Some(tile)) => far::exchange(element, tile, error, tolerance),
+            _ => [None; LANES],
+        }
     }
 
     /// The exchange of a pair of patches, if nothing stood between them.
-    pub(crate) fn near(&self, [i, j]: [usize; 2], obstacles: &Obstacles) -> Exchange {
-        let (i, j) = (&self.elements[i], &self.elements[j]);
-        unoccluded::exchange(i, j, obstacles.occluders.plane_tolerance())
+    pub(crate) fn near(&self, pair: [usize; 2], obstacles: &Obstacles) -> Exchange {
+        let tolerance = obstacles.occluders.plane_tolerance();
+        let pieces = self.pieces(pair);
+        let exchanges = pieces.map(|[i, j]| unoccluded::exchange(i, j, tolerance));
+        exchanges.fold(Exchange::clear(0.0, 0.0), |sum, exchange| {
+            Exchange::clear(sum.value + exchange.value, sum.error + exchange.error)
+        })
+    }
+
+    /// All pieces of a patch with all of another.
+    fn pieces(&self, [i, j]: [usize; 2]) -> impl Iterator<Item = [&Element; 2]> {
+        let (of_i, of_j) = (self.elements.of(i), self.elements.of(j));
+        of_i.iter()
+            .flat_map(move |i| of_j.iter().map(move |j| [i, j]))
     }
 
     /// The exchange of a pair of patches, with this between them.
     pub(crate) fn past(
         &self,
-        [i, j]: [usize; 2],
+        pair: [usize; 2],
         unoccluded: Exchange,
         between: &Between,
         obstacles: &Obstacles,
@@ -100,7 +119,7 @@ impl<'a> Accurate<'a> {
         if clear == 0.0 {
             return unoccluded;
         }
-        let faces = [i, j].map(|patch| obstacles.wall(&self.mesh.patches[patch]));
+        let faces = pair.map(|patch| obstacles.wall(&self.mesh.patches[patch]));
         let listed: Vec<Blocker>;
         let blocked = match between {
             Between::Few(faces) if faces.is_empty() => return unoccluded,
@@ -110,45 +129,49 @@ impl<'a> Accurate<'a> {
             }
             Between::Many => Blocked::Somehow(&obstacles.occluders, faces),
         };
-        let share = self.visible([i, j], &blocked, clear, obstacles);
-        Exchange {
-            value: share.value * clear,
-            error: share.error * clear + unoccluded.error,
-            missed: share.missed * clear,
-            sight: Sight::Partial,
-        }
-    }
-
-    /// The visible share of a pair, as the points of the smaller patch see the larger one.
-    fn visible(
-        &self,
-        [i, j]: [usize; 2],
-        blocked: &Blocked<'_>,
-        clear: f64,
-        obstacles: &Obstacles,
-    ) -> Share {
-        let (from, across) = if self.area(i) < self.area(j) {
-            (i, j)
-        } else {
-            (j, i)
-        };
         let tolerance = obstacles.occluders.plane_tolerance();
-        let [of_from, of_across] = [from, across].map(|patch| &self.elements[patch]);
-        let Some(corners) = of_across.clip(&of_from.corners, tolerance) else {
-            // One lies in the plane of the other, up to rounding.
-            return Share::UNKNOWN;
+        let ends = pair.map(|patch| (patch, self.elements.area(patch)));
+        // The same for all pieces: what they may add to the error goes by what they add.
+        let wanted = self.budget.of_pair(ends, clear) / clear;
+        let is_whole = pair.map(|patch| self.elements.single(patch).is_some()) == [true; 2];
+        let mut sum = Exchange {
+            value: 0.0,
+            sight: Sight::Partial,
+            ..unoccluded
         };
-        let lines = Lines::new(
-            (&corners, of_from.normal),
-            Target::new(&self.mesh.patches[across].polygon, of_across.normal),
-            blocked,
-        );
-        let stream = Stream::of_pair(SEED, i, j);
-        let ends = [i, j].map(|patch| (patch, self.area(patch)));
-        share(&lines, stream, self.budget.of_pair(ends, clear) / clear)
+        for (piece, elements) in self.pieces(pair).enumerate() {
+            let clear = match is_whole {
+                true => clear,
+                false => unoccluded::exchange(elements[0], elements[1], tolerance).value,
+            };
+            if clear > 0.0 {
+                let stream = Stream::of_pair(SEED + piece as u64, pair[0], pair[1]);
+                let share = visible(elements, &blocked, (stream, wanted), tolerance);
+                sum.value += share.value * clear;
+                sum.error += share.error * clear;
+                sum.missed += share.missed * clear;
+            }
+        }
+        sum
     }
+}
 
-    fn area(&self, patch: usize) -> f64 {
-        self.mesh.patches[patch].area
-    }
+/// The visible share of a pair, as the points of the smaller element see the larger one.
+fn visible(
+    [i, j]: [&Element; 2],
+    blocked: &Blocked<'_>,
+    (stream, wanted): (Stream, f64),
+    tolerance: f64,
+) -> Share {
+    let (from, across) = if i.area() < j.area() { (i, j) } else { (j, i) };
+    let Some(corners) = across.clip(from.corners(), tolerance) else {
+        // One lies in the plane of the other, up to rounding.
+        return Share::UNKNOWN;
+    };
+    let lines = Lines::new(
+        (&corners, from.normal),
+        Target::new(&across.polygon, across.normal),
+        blocked,
+    );
+    share(&lines, stream, wanted)
 }

@@ -10,6 +10,7 @@ use crate::estimate::Estimation;
 use crate::fixed::{Fixed, FixedSums};
 use crate::obstacles::Between;
 use crate::pairs::FEW;
+use crate::quotient;
 use crate::tiles::{Group, Tiling};
 use rayon::prelude::*;
 
@@ -83,7 +84,7 @@ impl Estimation<'_> {
                 continue;
             };
             let exchange = accurate.near(pair, &self.obstacles).value;
-            let [of_tile, of_other] = pair.map(|patch| exchange / self.mesh.patches[patch].area);
+            let [of_tile, of_other] = pair.map(|patch| quotient(exchange, self.areas[patch]));
             let add = |to: usize, of: usize, factor: f64| {
                 sums.add(
                     to,

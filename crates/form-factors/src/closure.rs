@@ -5,7 +5,7 @@
 //! `d_i <- sqrt(d_i t_i / sum_j S_ij d_j)` (P. Knight, D. Ruiz & B. Ucar, "A Symmetry Preserving
 //! Algorithm for Matrix Scaling", 2014).
 
-use crate::{FormFactors, RowFacts};
+use crate::{FormFactors, RowFacts, quotient};
 use radiosity_matrix::{SymmetricMatrix, packed_row};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -73,7 +73,7 @@ impl Closure {
         let total: f64 = form_factors.areas.iter().sum();
         let sums = exchange.row_sums();
         let row = |(i, row): (usize, &RowFacts)| RowFacts {
-            fronts: sums[i] * total / form_factors.areas[i],
+            fronts: quotient(sums[i] * total, form_factors.areas[i]),
             ..*row
         };
         FormFactors {

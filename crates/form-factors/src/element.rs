@@ -3,7 +3,8 @@
 use crate::gauss;
 use crate::points::Sample;
 use arrayvec::ArrayVec;
-use radiosity_geometry::{DVec3, Patch, Polygon};
+use radiosity_geometry::{DVec3, Mesh, Patch, Polygon};
+use std::iter::once;
 
 /// Up to four corners, and one more where a plane cuts one off. Quads may be twisted by the
 /// rounding of their corners, and then a plane nearly their own crosses all four edges.
@@ -12,10 +13,10 @@ pub(crate) type Corners = ArrayVec<DVec3, 8>;
 /// The rules of 1, 2 and 3 points along each edge.
 pub(crate) const RULES: usize = 3;
 
-/// A patch, ready to be integrated over.
+/// What of a patch exchanges light, or a convex piece of that, ready to be integrated over.
 #[derive(Clone, Debug)]
 pub(crate) struct Element {
-    pub(crate) corners: Corners,
+    pub(crate) polygon: Polygon,
     pub(crate) normal: DVec3,
     pub(crate) centroid: DVec3,
     /// From the centroid to the farthest corner.
@@ -24,17 +25,81 @@ pub(crate) struct Element {
     pub(crate) rules: [Vec<Sample>; RULES],
 }
 
+/// The elements of all patches: one of each, or the pieces of what no other face lies on.
+pub(crate) struct Elements {
+    all: Vec<Element>,
+    /// Of each patch, how many come before its own; and how many all are.
+    ends: Vec<usize>,
+}
+
+impl Elements {
+    pub(crate) fn new(mesh: &Mesh) -> Elements {
+        let mut elements = Elements {
+            all: Vec::with_capacity(mesh.patches.len()),
+            ends: vec![0],
+        };
+        for patch in &mesh.patches {
+            let pieces = free_pieces(mesh, patch);
+            elements.all.extend(pieces.iter().map(Element::new));
+            elements.ends.push(elements.all.len());
+        }
+        elements
+    }
+
+    /// Those of a patch; none if other faces cover it.
+    pub(crate) fn of(&self, patch: usize) -> &[Element] {
+        &self.all[self.ends[patch]..self.ends[patch + 1]]
+    }
+
+    /// That of a patch, unless it is in pieces.
+    pub(crate) fn single(&self, patch: usize) -> Option<&Element> {
+        match self.of(patch) {
+            [element] => Some(element),
+            _ => None,
+        }
+    }
+
+    /// The area of a patch that exchanges light.
+    pub(crate) fn area(&self, patch: usize) -> f64 {
+        self.of(patch).iter().map(Element::area).sum()
+    }
+
+    /// The same of all patches.
+    pub(crate) fn areas(&self) -> Vec<f64> {
+        let patches = 0..self.ends.len() - 1;
+        patches.map(|patch| self.area(patch)).collect()
+    }
+}
+
+/// The patch itself, or what of it no other face lies on, as patches of the same face.
+pub(crate) fn free_pieces(mesh: &Mesh, patch: &Patch) -> Vec<Patch> {
+    let piece = |polygon: Polygon| Patch {
+        polygon,
+        centroid: polygon.centroid(),
+        area: polygon.area(),
+        ..patch.clone()
+    };
+    match mesh.covers.free_part(&mesh.faces, patch) {
+        Some(polygons) => polygons.into_iter().map(piece).collect(),
+        None => once(patch.clone()).collect(),
+    }
+}
+
 impl Element {
     pub(crate) fn new(patch: &Patch) -> Element {
-        let corners: Corners = patch.polygon.corners().iter().copied().collect();
         let distance = |corner: &DVec3| corner.distance(patch.centroid);
         let center = Sample {
             point: patch.centroid,
             area: patch.area,
         };
         Element {
-            radius: corners.iter().map(distance).fold(0.0, f64::max),
-            corners,
+            radius: patch
+                .polygon
+                .corners()
+                .iter()
+                .map(distance)
+                .fold(0.0, f64::max),
+            polygon: patch.polygon,
             normal: patch.normal,
             centroid: patch.centroid,
             rules: [
@@ -43,6 +108,11 @@ impl Element {
                 tensor_rule(&patch.polygon, 3),
             ],
         }
+    }
+
+    /// The corners, counter-clockwise seen from the front.
+    pub(crate) fn corners(&self) -> &[DVec3] {
+        self.polygon.corners()
     }
 
     /// The area, in square scene units.
@@ -80,7 +150,7 @@ impl Element {
 }
 
 /// Gauss's rule in both bilinear parameters.
-fn tensor_rule(polygon: &Polygon, points: usize) -> Vec<Sample> {
+pub(crate) fn tensor_rule(polygon: &Polygon, points: usize) -> Vec<Sample> {
     let rule = gauss::rule(points);
     let pairs = rule.iter().flat_map(|u| rule.iter().map(move |v| (u, v)));
     let sample = |(&(u, weight_u), &(v, weight_v)): (&(f64, f64), &(f64, f64))| Sample {

@@ -11,7 +11,7 @@ use crate::obstacles::Obstacles;
 use crate::pairs::Told;
 use crate::part::Part;
 use crate::regular::{Regular, Scratch};
-use crate::surroundings::{Surroundings, look_around};
+use crate::surroundings::{Surroundings, around_free_part, look_around};
 use crate::tally::{Classes, RowError, Tally};
 use crate::tiles::{Tile, Tiling};
 use crate::{Estimator, FormFactors};
@@ -35,6 +35,8 @@ pub struct Estimation<'a> {
     pub(crate) tiling: Tiling,
     pub(crate) obstacles: Obstacles,
     pub(crate) method: Method<'a>,
+    /// By patch, the area that exchanges light.
+    pub(crate) areas: Vec<f64>,
     pub(crate) scale: f64,
 }
 
@@ -74,13 +76,20 @@ impl<'a> Estimation<'a> {
             let face = &mesh.faces[patch.face.index()];
             Part::on_face(obstacles.wall(patch), face, patch.polygon.padded_corners())
         };
+        let areas = match &method {
+            Method::Accurate(accurate) => accurate.areas(),
+            Method::Regular(_) | Method::MonteCarlo(_) => {
+                mesh.patches.iter().map(|patch| patch.area).collect()
+            }
+        };
         let mut estimation = Estimation {
             mesh,
             parts: mesh.patches.iter().map(part).collect(),
             tiling,
             obstacles,
             method,
-            scale: 1.0 / mesh.total_area(),
+            scale: 1.0 / areas.iter().sum::<f64>(),
+            areas,
         };
         let budget = match (&estimation.method, estimator) {
             (Method::Accurate(accurate), Estimator::Accurate { tolerance }) => {
@@ -188,7 +197,13 @@ impl<'a> Estimation<'a> {
         self.tiling.tiles.iter().map(|tile| tile.patches.as_slice())
     }
 
-    /// `S_ij`, in units of the total area, of one patch `i` with all patches: a row by itself, for
+    /// By patch, the area that exchanges light, in square scene units: for the accurate estimator without
+    /// what other faces lie on, and 0 where they cover all.
+    pub fn areas(&self) -> &[f64] {
+        &self.areas
+    }
+
+    /// `S_ij`, in units of the total of these areas, of one patch `i` with all patches: a row by itself, for
     /// whoever does not want all. The patch is named by its cluster and its place in it.
     pub fn row(&self, cluster: usize, place: usize) -> Vec<f32> {
         let mut row = vec![0.0; self.mesh.patches.len()];
@@ -206,12 +221,16 @@ impl<'a> Estimation<'a> {
 
     /// What all rows together make, once all are filled.
     pub fn complete(&self, exchange: SymmetricMatrix, tally: &Tally) -> FormFactors {
-        let areas = self.mesh.patches.iter().map(|patch| patch.area).collect();
-        let look = |patch| look_around(self.mesh, &self.obstacles, patch);
+        let look = |patch| match self.method {
+            Method::Accurate(_) => around_free_part(self.mesh, &self.obstacles, patch),
+            Method::Regular(_) | Method::MonteCarlo(_) => {
+                look_around(&self.obstacles, &self.mesh.patches[patch], [patch, 0])
+            }
+        };
         let patches = 0..self.mesh.patches.len();
         let surroundings: Vec<Surroundings> = patches.into_par_iter().map(look).collect();
         let errors = self.tells_errors().then(|| tally.sums());
-        FormFactors::new(areas, exchange, errors, &surroundings)
+        FormFactors::new(self.areas.clone(), exchange, errors, &surroundings)
     }
 
     /// Whether the estimator knows the errors of its rows.
@@ -225,7 +244,7 @@ impl<'a> Estimation<'a> {
     /// Fills the zeroed rows of a tile, and adds to the tally.
     fn fill(&self, tile: usize, rows: &mut [&mut [f32]], room: &mut Room, tally: &Tally) {
         let patches = &self.tiling.tiles[tile].patches;
-        let area = |patch: usize| self.mesh.patches[patch].area;
+        let area = |patch: usize| self.areas[patch];
         let mut classes = Classes::default();
         let mut errors = [RowError::default(); LANES];
         let mut tell = |lane: usize, told: Told<'_>| {

@@ -9,10 +9,11 @@ use radiosity_geometry::DVec3;
 use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
 use std::f64::consts::PI;
 
-/// The patches of a tile, one per lane; lanes without one repeat the first.
+/// The patches of a tile, one per lane. Lanes without one repeat the first, and so do those of patches in
+/// pieces, which are never far.
 pub(crate) struct FarTile {
-    /// How many lanes have one.
-    count: usize,
+    /// Which lanes have one.
+    used: u8,
     centroid: Lanes,
     normal: Lanes,
     radius: [f64; LANES],
@@ -37,8 +38,10 @@ struct Nodes {
 const ERROR: [f64; RULES] = [1.0, 0.15, 0.02];
 
 impl FarTile {
-    pub(crate) fn new(elements: &ArrayVec<&Element, LANES>) -> FarTile {
-        let of_lane = |lane: usize| elements.get(lane).unwrap_or(&elements[0]);
+    /// `None` if all patches are in pieces.
+    pub(crate) fn new(elements: &ArrayVec<Option<&Element>, LANES>) -> Option<FarTile> {
+        let first = *elements.iter().flatten().next()?;
+        let of_lane = |lane: usize| elements.get(lane).copied().flatten().unwrap_or(first);
         let lanes = |vector: &dyn Fn(&Element) -> DVec3| -> Lanes {
             let vectors: [DVec3; LANES] = std::array::from_fn(|lane| vector(of_lane(lane)));
             std::array::from_fn(|axis| vectors.map(|vector| vector[axis]))
@@ -46,23 +49,24 @@ impl FarTile {
         let numbers = |number: &dyn Fn(&Element) -> f64| -> [f64; LANES] {
             std::array::from_fn(|lane| number(of_lane(lane)))
         };
-        let corner = |k: usize| lanes(&|e: &Element| e.corners[k.min(e.corners.len() - 1)]);
+        let corner = |k: usize| lanes(&|e: &Element| e.polygon.padded_corners()[k]);
         let nodes = |rule: usize| {
             let node = |k: usize| Nodes {
                 point: lanes(&|e: &Element| e.rules[rule][k].point),
                 area: numbers(&|e: &Element| e.rules[rule][k].area),
             };
-            (0..elements[0].rules[rule].len()).map(node).collect()
+            (0..first.rules[rule].len()).map(node).collect()
         };
-        FarTile {
-            count: elements.len(),
+        let used = elements.iter().enumerate();
+        Some(FarTile {
+            used: used.fold(0, |used, (lane, e)| used | u8::from(e.is_some()) << lane),
             centroid: lanes(&|e: &Element| e.centroid),
             normal: lanes(&|e: &Element| e.normal),
             radius: numbers(&|e: &Element| e.radius),
             area: numbers(&Element::area),
             corners: std::array::from_fn(corner),
             rules: std::array::from_fn(nodes),
-        }
+        })
     }
 }
 
@@ -84,7 +88,7 @@ pub(crate) fn exchange(
         tolerance,
     });
     std::array::from_fn(|lane| {
-        let is_far = lane < tile.count && found.far & 1 << lane != 0;
+        let is_far = found.far & tile.used & 1 << lane != 0;
         is_far.then(|| Exchange::clear(found.values[lane], error * found.squarely[lane]))
     })
 }
@@ -145,7 +149,7 @@ impl Far<'_> {
             let [x, y, z] = from_patch(simd, corner, patch.centroid);
             whole &= lowest.less_or_equal(dot(simd, patch.normal, x, y, z));
         }
-        for corner in &patch.corners {
+        for corner in patch.corners() {
             let [x, y, z] = from_patch(simd, &tile.centroid, *corner);
             whole &= lowest.less_or_equal(-along(simd, &tile.normal, [x, y, z]));
         }

@@ -68,7 +68,7 @@ pub use tally::{ClassFacts, Classes, Tally};
 
 /// Raise it whenever the same mesh would give other form factors, because of a change here, in
 /// `geometry`, or in the random numbers: it is part of their key.
-pub const VERSION: u32 = 14;
+pub const VERSION: u32 = 15;
 
 /// How the double integral of a pair is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -151,7 +151,9 @@ pub struct RowFacts {
 /// The form factors of all pairs.
 #[derive(Clone, Debug)]
 pub struct FormFactors {
-    /// Patch areas, in square scene units.
+    /// By patch, the area that exchanges light, in square scene units. The accurate estimator leaves out
+    /// what other faces [lie on](radiosity_geometry::Covers); where they cover all, it is 0, and so are
+    /// the patch's factors.
     pub areas: Vec<f64>,
     /// `S_ij = A_i F_ij`, in units of the total area.
     pub exchange: SymmetricMatrix,
@@ -174,7 +176,7 @@ impl FormFactors {
         let total: f64 = areas.iter().sum();
         let fronts = exchange.row_sums();
         let row = |i: usize| RowFacts {
-            fronts: fronts[i] * total / areas[i],
+            fronts: quotient(fronts[i] * total, areas[i]),
             backs: surroundings[i].backs,
             background: surroundings[i].background,
             rays_error: surroundings[i].error,
@@ -193,7 +195,7 @@ impl FormFactors {
 
     /// `F_ij` for all `j`.
     pub fn row(&self, i: usize) -> Vec<f64> {
-        let scale = self.areas.iter().sum::<f64>() / self.areas[i];
+        let scale = quotient(self.areas.iter().sum(), self.areas[i]);
         let factor = |j| f64::from(self.exchange.get(i, j)) * scale;
         (0..self.areas.len()).map(factor).collect()
     }
@@ -201,6 +203,11 @@ impl FormFactors {
     /// `F_ij`: the share of the power leaving patch `i` that arrives at patch `j`.
     pub fn factor(&self, i: usize, j: usize) -> f64 {
         let total: f64 = self.areas.iter().sum();
-        f64::from(self.exchange.get(i, j)) * total / self.areas[i]
+        quotient(f64::from(self.exchange.get(i, j)) * total, self.areas[i])
     }
+}
+
+/// What an area has of something; nothing if it is no area.
+pub(crate) fn quotient(whole: f64, area: f64) -> f64 {
+    if area > 0.0 { whole / area } else { 0.0 }
 }

@@ -1,6 +1,6 @@
 //! Form factors between sets of patches.
 
-use crate::{FormFactors, RowFacts};
+use crate::{FormFactors, RowFacts, quotient};
 
 /// Form factors between *parts*: sets of patches, each patch in one of them.
 ///
@@ -25,7 +25,7 @@ impl LumpedFactors {
     /// whole rows, from either side, so it is the better the more of the light goes this way.
     pub fn error(&self, a: usize, b: usize) -> Option<f64> {
         let power = |part: usize| Some(self.areas[part] * self.rows[part].error?);
-        Some(power(a)?.min(power(b)?) / self.areas[a])
+        Some(quotient(power(a)?.min(power(b)?), self.areas[a]))
     }
 }
 
@@ -40,7 +40,8 @@ impl FormFactors {
         }
         let mut factors = self.exchange.lumped_sums(part_of, parts);
         for (row, area) in factors.chunks_mut(parts.max(1)).zip(&areas) {
-            row.iter_mut().for_each(|factor| *factor *= total / area);
+            row.iter_mut()
+                .for_each(|factor| *factor *= quotient(total, *area));
         }
         LumpedFactors {
             rows: self.lumped_rows(part_of, &areas),
@@ -57,11 +58,12 @@ impl FormFactors {
         let mut lumped = vec![blank; areas.len()];
         for ((&part, row), area) in part_of.iter().zip(&self.rows).zip(&self.areas) {
             let sum = &mut lumped[part];
-            let weight = area / areas[part];
+            let weight = quotient(*area, areas[part]);
             sum.fronts += weight * row.fronts;
             sum.backs += weight * row.backs;
             sum.background += weight * row.background;
             sum.visible += weight * row.visible;
+            sum.missed += weight * row.missed;
             // Rays of different patches are independent.
             sum.rays_error = sum.rays_error.hypot(weight * row.rays_error);
             sum.error = (sum.error.zip(row.error)).map(|(sum, error)| sum + weight * error);

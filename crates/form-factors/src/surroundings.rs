@@ -4,6 +4,7 @@
 //! patch sees.
 
 use crate::ahead::{Ahead, Met};
+use crate::element::free_pieces;
 use crate::hidden::{Cell, Starts, by_cell, is_suspicious, visible_share};
 use crate::lattice::{Block, Lattice, ratio};
 use crate::obstacles::Obstacles;
@@ -51,16 +52,51 @@ struct Sums {
     cells: Vec<Cell>,
 }
 
-/// Looks around from the patch of this index.
-pub(crate) fn look_around(mesh: &Mesh, obstacles: &Obstacles, index: usize) -> Surroundings {
-    let patch = &mesh.patches[index];
+impl Surroundings {
+    /// Of a patch that other faces cover: it sees nothing but their backs.
+    const COVERED: Surroundings = Surroundings {
+        backs: 1.0,
+        background: 0.0,
+        error: 0.0,
+        visible: 0.0,
+    };
+}
+
+/// Looks around from what no other face lies on of the patch of this index.
+pub(crate) fn around_free_part(mesh: &Mesh, obstacles: &Obstacles, index: usize) -> Surroundings {
+    let pieces = free_pieces(mesh, &mesh.patches[index]);
+    if pieces.is_empty() {
+        return Surroundings::COVERED;
+    }
+    let area: f64 = pieces.iter().map(|piece| piece.area).sum();
+    let mut sum = Surroundings {
+        backs: 0.0,
+        ..Surroundings::COVERED
+    };
+    for (k, piece) in pieces.iter().enumerate() {
+        let (found, weight) = (look_around(obstacles, piece, [index, k]), piece.area / area);
+        sum.backs += weight * found.backs;
+        sum.background += weight * found.background;
+        sum.error = sum.error.hypot(weight * found.error);
+        sum.visible += weight * found.visible;
+    }
+    sum
+}
+
+/// Looks around from a patch, or a piece of it, of these indices.
+pub(crate) fn look_around(
+    obstacles: &Obstacles,
+    patch: &Patch,
+    [index, piece]: [usize; 2],
+) -> Surroundings {
     let ahead = Ahead::of(patch, obstacles);
     let look = |effort: Effort| {
+        let mut stream = Stream::of_pair(SEED + piece as u64, index, index);
         dispatch(Look {
             obstacles,
             patch,
             ahead: ahead.as_ref(),
-            lattice: &Lattice::new(Block::WHOLE, &mut Stream::of_pair(SEED, index, index)),
+            lattice: &Lattice::new(Block::WHOLE, &mut stream),
             effort,
         })
     };
@@ -74,14 +110,20 @@ pub(crate) fn look_around(mesh: &Mesh, obstacles: &Obstacles, index: usize) -> S
     };
     let found = std::array::from_fn(|lane| sums.backs[lane] + sums.background[lane]);
     let (_, scatter) = ratio(&found, &sums.all);
-    // What is smaller than the share of one ray may have gone unseen.
-    let unseen = 1.0 / (LANES * FIRST_LOOK.rays) as f64;
+    let share = total(&found) / all;
     Surroundings {
         backs: total(&sums.backs) / all,
         background: total(&sums.background) / all,
-        error: scatter.max(unseen),
+        error: scatter.max(of_rays(share, LANES * FIRST_LOOK.rays)),
         visible,
     }
+}
+
+/// The standard error of a share that so many independent rays tell, if one more ray told it: eight
+/// shifts may agree by chance, and what is smaller than the share of one ray may have gone unseen.
+fn of_rays(share: f64, rays: usize) -> f64 {
+    let one = 1.0 / rays as f64;
+    ((share + one) * (1.0 - share + one) * one).sqrt()
 }
 
 struct Look<'a> {

@@ -47,6 +47,12 @@ impl Aabb {
         self.min.cmple(point).all() && self.max.cmpge(point).all()
     }
 
+    /// Whether both boxes are no farther apart than `distance` along any axis.
+    pub fn is_near(&self, other: &Aabb, distance: f64) -> bool {
+        let gap = self.min.max(other.min) - self.max.min(other.max);
+        gap.max_element() <= distance
+    }
+
     /// The centre.
     pub fn center(&self) -> DVec3 {
         0.5 * (self.min + self.max)

@@ -1,6 +1,7 @@
 //! The mesh of patches: what every later stage indexes.
 
 use crate::bounds::Aabb;
+use crate::covers::Covers;
 use crate::polygon::Polygon;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -113,6 +114,8 @@ pub struct Mesh {
     pub patches: Vec<Patch>,
     /// The faces.
     pub faces: Vec<Face>,
+    /// Which of them lie on which others.
+    pub covers: Covers,
 }
 
 impl Mesh {

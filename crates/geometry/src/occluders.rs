@@ -21,6 +21,8 @@ pub struct Occluders {
     pub(crate) blocks: Vec<FaceBlock>,
     /// Heights up to this count as "in the plane": the rounding of coordinates of this scene.
     pub(crate) plane_tolerance: f64,
+    /// How many faces lie on each other above each face; empty if that is nowhere told.
+    layers: Vec<u32>,
 }
 
 /// Two lines of memory.
@@ -78,7 +80,12 @@ impl Occluders {
     pub fn new(mesh: &Mesh) -> Occluders {
         let polygons: Vec<Polygon> = mesh.faces.iter().map(|face| face.polygon).collect();
         let bare: Vec<bool> = mesh.faces.iter().map(Face::is_bare).collect();
-        Occluders::of(&polygons, &bare)
+        let mut occluders = Occluders::of(&polygons, &bare);
+        if !mesh.covers.covered().is_empty() {
+            let ids = (0..mesh.faces.len() as u32).map(FaceId);
+            occluders.layers = ids.map(|id| mesh.covers.layer(id)).collect();
+        }
+        occluders
     }
 
     /// Prepares walls; a [`FaceId`] is then a wall's.
@@ -103,6 +110,7 @@ impl Occluders {
             faces,
             tree,
             plane_tolerance,
+            layers: Vec::new(),
         }
     }
 
@@ -120,7 +128,8 @@ impl Occluders {
     ///
     /// Where a front and a back lie in one place, in the same plane up to the rounding of
     /// coordinates, the ray meets the front: walls made of two faces show their fronts to either
-    /// side. Else, of two hits at the same parameter the face that comes first wins.
+    /// side. Of two fronts the ray meets the one that [lies on](crate::Covers) the other. Else, of two hits
+    /// at the same parameter the face that comes first wins.
     pub fn closest_hit(
         &self,
         ray: &Ray,
@@ -142,6 +151,14 @@ impl Occluders {
     /// crosses there, up to the rounding of coordinates.
     pub(crate) fn in_plane(&self, face: FaceId, ray: &Ray) -> f64 {
         self.plane_tolerance / self.faces[face.index()].normal.dot(ray.direction).abs()
+    }
+
+    /// By how much of its parameter a ray is to meet a face later, since others lie on it.
+    pub(crate) fn set_back(&self, face: FaceId, ray: &Ray) -> f64 {
+        match self.layers.get(face.index()) {
+            None | Some(0) => 0.0,
+            Some(&layer) => 2.0 * f64::from(layer) * self.in_plane(face, ray),
+        }
     }
 
     /// Whether a ray meets any face at a parameter in `from..=to`, other than `except`.

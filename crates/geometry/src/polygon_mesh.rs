@@ -15,6 +15,18 @@ pub struct PolygonMesh {
 }
 
 impl PolygonMesh {
+    /// Of polygons that share no corners.
+    pub fn of(polygons: &[Polygon]) -> PolygonMesh {
+        let mut mesh = PolygonMesh::default();
+        for polygon in polygons {
+            let first = mesh.positions.len() as u32;
+            mesh.positions.extend(polygon.corners());
+            mesh.faces
+                .push((first..mesh.positions.len() as u32).collect());
+        }
+        mesh
+    }
+
     /// The planar convex polygons of all faces, in input order, each with its face's index.
     ///
     /// A planar convex quad stays one polygon; any other quad becomes two triangles along the

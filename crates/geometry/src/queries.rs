@@ -30,8 +30,10 @@ pub(crate) struct ClosestHit<'a> {
 /// The nearest of some faces.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 struct Nearest {
-    t: f64,
+    /// Where it counts as met: later than at `t` where others lie on it.
+    set_back: f64,
     face: FaceId,
+    t: f64,
 }
 
 /// [`Occluders::any_hit`].
@@ -85,7 +87,7 @@ impl Kernel for ClosestHit<'_> {
         reach.search(simd, &mut self);
         let within = |nearest: &Nearest| nearest.t <= self.horizon;
         let [front, back] = [self.front, self.back].map(|side| side.filter(within));
-        front.or(back).map(|Nearest { t, face }| Hit {
+        front.or(back).map(|Nearest { t, face, .. }| Hit {
             t,
             face,
             front: front.is_some(),
@@ -107,15 +109,16 @@ impl Visitor for ClosestHit<'_> {
         let block = &occluders.blocks[leaf];
         let hits = block.hits(simd, ray, from, *limit);
         for lane in bits(hits.mask) {
-            let (t, face) = (hits.t[lane], occluders.face(leaf, lane));
+            let face = occluders.face(leaf, lane);
             if Some(face) == except {
                 continue;
             }
-            let found = Nearest { t, face };
-            let side = match hits.front >> lane & 1 {
-                0 => &mut self.back,
-                _ => &mut self.front,
+            let t = hits.t[lane];
+            let (side, set_back) = match hits.front >> lane & 1 {
+                0 => (&mut self.back, t),
+                _ => (&mut self.front, t + occluders.set_back(face, ray)),
             };
+            let found = Nearest { set_back, face, t };
             if side.is_none_or(|nearest| found < nearest) {
                 *side = Some(found);
             }

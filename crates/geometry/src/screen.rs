@@ -77,7 +77,11 @@ impl Screen {
             tolerance: plane_tolerance(&everything),
         };
         let ids = (0..mesh.faces.len() as u32).map(FaceId);
-        let faces = ids.filter_map(|id| SeenFace::new(id, &mesh.faces[id.index()], &viewed));
+        let seen = |id: FaceId| {
+            let face = (id, &mesh.faces[id.index()]);
+            SeenFace::new(face, mesh.covers.layer(id), &viewed)
+        };
+        let faces = ids.filter_map(seen);
         let is_seen = |face: &SeenFace| face.front || backs == Backs::Black;
         let faces: Vec<SeenFace> = faces.filter(is_seen).collect();
         let (across, down) = (width.div_ceil(TILE), height.div_ceil(TILE));
@@ -118,8 +122,8 @@ impl Screen {
     }
 
     /// Which faces the samples of the pixel in column `x` and row `y` show, into `seen`: the
-    /// nearest of those that are not too near. Of a front and a back in one plane they show the front,
-    /// else of two at the same depth the first. Returns whether other places in the pixel may show
+    /// nearest of those that are not too near. Of a front and a back in one plane they show the front, of
+    /// two fronts the one that lies on the other, else of two at the same depth the first. Returns whether other places in the pixel may show
     /// other faces.
     #[inline(always)]
     pub fn look<S: Simd>(

@@ -1,6 +1,7 @@
 //! Stage 1: surfaces into patches.
 
 use crate::check::ShapeError;
+use crate::covers::Covers;
 use crate::mesh::{Face, FaceId, Grid, Mesh, Patch, SurfaceId};
 use crate::morton;
 use crate::polygon::Polygon;
@@ -94,9 +95,11 @@ pub const MAX_PATCHES: usize = 1 << 20;
 /// are patches as they are unless the default is an edge length or the surface has its own
 /// divisions.
 pub fn subdivide(surfaces: &[Surface], default: Divisions) -> Result<Mesh, MeshError> {
+    let faces = uncut_faces(surfaces, default)?;
     let mut mesh = Mesh {
         patches: Vec::new(),
-        faces: uncut_faces(surfaces, default)?,
+        covers: Covers::of(&faces),
+        faces,
     };
     let mut first_patch = 0;
     for face in &mut mesh.faces {

@@ -35,7 +35,7 @@ impl Walls {
 }
 
 /// An edge by the bits of its ends, in the order of its polygon.
-type Edge = [[u64; 3]; 2];
+pub(crate) type Edge = [[u64; 3]; 2];
 
 struct Joining {
     /// `None` where a polygon has become part of another.
@@ -132,12 +132,13 @@ impl Joining {
     }
 }
 
-fn edges(polygon: &Polygon) -> impl Iterator<Item = [DVec3; 2]> {
+/// The edges of a polygon, in order.
+pub(crate) fn edges(polygon: &Polygon) -> impl Iterator<Item = [DVec3; 2]> {
     let corners = polygon.corners();
     (0..corners.len()).map(move |k| [corners[k], corners[(k + 1) % corners.len()]])
 }
 
-fn key(edge: [DVec3; 2]) -> Edge {
+pub(crate) fn key(edge: [DVec3; 2]) -> Edge {
     // Adding zero makes one zero of both.
     edge.map(|point| (point + 0.0).to_array().map(f64::to_bits))
 }

@@ -124,7 +124,10 @@ impl<'a> FactorTable<'a> {
                 total_area,
             } => {
                 let exchange = form_factors.exchange.get(order[i], order[j]);
-                f64::from(exchange) * total_area / self.rows[i].area
+                match self.rows[i].area {
+                    0.0 => 0.0,
+                    area => f64::from(exchange) * total_area / area,
+                }
             }
             Entries::OfParts(lumped) => lumped.factor(i, j),
         }
@@ -196,6 +199,7 @@ impl<'a> FactorTable<'a> {
             "sky",
             "error",
             "visible",
+            "missed",
         ]);
         columns.extend(dropped.map(|_| "dropped"));
         file.write_record(columns)?;
@@ -216,12 +220,12 @@ impl<'a> FactorTable<'a> {
                 rays_error,
                 visible,
                 error,
-                missed: _,
+                missed,
             } = *facts;
             record.push(row.area.to_string());
             record.extend([fronts, backs, background].map(|share| format!("{share:.9}")));
             record.extend([short(Some(rays_error)), format!("{sky:.9}"), short(error)]);
-            record.push(format!("{visible:.4}"));
+            record.extend([format!("{visible:.4}"), short(error.map(|_| missed))]);
             record.extend(dropped.map(|dropped| short(Some(dropped[k]))));
             file.write_record(record)?;
         }

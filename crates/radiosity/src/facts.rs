@@ -11,9 +11,9 @@ pub(crate) const FORM_FACTORS: &str = "form-factors";
 pub(crate) const CLOSURE: &str = "closure";
 pub(crate) const SOLUTION: &str = "solution";
 /// Raise it whenever the layout of [`FactorFacts`] changes: it is part of their keys.
-pub(crate) const FACTORS_VERSION: u32 = 9;
+pub(crate) const FACTORS_VERSION: u32 = 10;
 /// The same for [`SolutionFacts`].
-pub(crate) const SOLUTION_VERSION: u32 = 10;
+pub(crate) const SOLUTION_VERSION: u32 = 11;
 
 /// Beside the matrix of form factors.
 #[derive(Debug, Serialize, Deserialize)]
@@ -23,6 +23,8 @@ pub(crate) struct FactorFacts {
     pub(crate) patches_of_surfaces: Vec<u32>,
     /// The number of each patch's row in exported tables.
     pub(crate) exported_as: Vec<u32>,
+    /// Per patch, the area that exchanges light.
+    pub(crate) areas: Vec<f64>,
     /// Per patch.
     pub(crate) rows: Vec<RowFacts>,
     pub(crate) classes: Option<Classes>,
@@ -46,6 +48,7 @@ impl FactorFacts {
             estimator,
             patches_of_surfaces: patches_of_surfaces(mesh),
             exported_as: exported_as(mesh),
+            areas: made.areas.clone(),
             rows: made.rows.clone(),
             classes: made.classes,
             closure: made.closure,
@@ -62,6 +65,7 @@ impl FactorFacts {
             estimator,
             patches_of_surfaces: patches_of_surfaces(mesh),
             exported_as: exported_as(mesh),
+            areas: vec![0.0; mesh.patches.len()],
             rows: vec![row; mesh.patches.len()],
             classes: tells_errors.then(Classes::default),
             closure: None,

@@ -179,7 +179,12 @@ impl FactorInspection {
             patches: facts.rows.len(),
             surfaces,
             estimator: EstimatorReport::of(facts.estimator),
-            rows: RowSummary::new(&facts.rows, facts.classes, facts.closure),
+            rows: RowSummary::new(
+                (&facts.areas, &facts.rows),
+                |patch| facts.surface_of(patch),
+                facts.classes,
+                facts.closure,
+            ),
             off_by,
             worst: order.iter().take(WORST).map(worst).collect(),
         }

@@ -1,7 +1,7 @@
 //! What is said of scenes and artifacts, to people.
 
-use crate::resources::{PATCHES, SURFACES, counted};
-use crate::rows::RowSummary;
+use crate::resources::{PATCHES, ROWS, SURFACES, counted};
+use crate::rows::{RowSummary, Unbalanced};
 use radiosity_form_factors::Classes;
 use radiosity_scene::Scene;
 
@@ -47,6 +47,45 @@ pub(crate) fn error_line(rows: &RowSummary) -> Option<String> {
     Some(format!(
         "the errors of a row sum to an estimated {mean:.1e} on average, {worst:.1e} at worst"
     ))
+}
+
+/// By how much the tolerance was missed, if samples were used up.
+pub(crate) fn missed_line(rows: &RowSummary) -> Option<String> {
+    let (count, worst) = rows.missed;
+    (count > 0).then(|| {
+        format!(
+            "the tolerance is missed by up to {worst:.1e} in {}: pairs there have used up all their \
+             samples, and a smaller tolerance does not help",
+            counted(count as usize, ROWS)
+        )
+    })
+}
+
+/// So many surfaces whose rows do not add up are told.
+const MOST_UNBALANCED: usize = 3;
+
+/// The surfaces whose rows do not add up, by name.
+pub(crate) fn unbalanced_lines(rows: &RowSummary, name: impl Fn(u32) -> String) -> Vec<String> {
+    let line = |of: &Unbalanced| {
+        format!(
+            "warning: {} of `{}` do not add up: what its patches see sums to {:.4} instead of 1 at worst, \
+             more than the errors explain; do not trust these form factors",
+            counted(of.rows as usize, ROWS),
+            name(of.surface),
+            of.worst,
+        )
+    };
+    let mut lines: Vec<String> = rows
+        .unbalanced
+        .iter()
+        .take(MOST_UNBALANCED)
+        .map(line)
+        .collect();
+    let more = rows.unbalanced.len().saturating_sub(MOST_UNBALANCED);
+    if more > 0 {
+        lines.push(format!("and the same of {}", counted(more, SURFACES)));
+    }
+    lines
 }
 
 /// Pairs by how much they see of each other.

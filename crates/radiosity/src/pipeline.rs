@@ -13,6 +13,7 @@ use radiosity_scene::{Material, Mode, Scene};
 use radiosity_solver::SolveError;
 use std::sync::OnceLock;
 
+mod covers;
 mod factors;
 mod pictures;
 mod preview;
@@ -89,6 +90,9 @@ impl<'a> Pipeline<'a> {
             (0..patches).map(emission).collect()
         };
         check_lights(scene)?;
+        for note in covers::notes(scene, &mesh) {
+            observer.note(&note);
+        }
         let inputs = (facts::FACTORS_VERSION, &mesh, settings::estimator(scene));
         let estimate = Key::of(FORM_FACTORS, form_factors::VERSION, &inputs);
         Ok(Pipeline {
@@ -131,12 +135,14 @@ impl<'a> Pipeline<'a> {
         &self.scene.surfaces[self.mesh.patches[patch].surface.index()].name
     }
 
-    /// Why row sums of the scene's estimator may exceed 1.
-    pub(crate) fn known_weakness(&self) -> &'static str {
+    /// Why row sums of the scene's estimator may exceed 1, unless it tells its errors.
+    pub(crate) fn known_weakness(&self) -> Option<&'static str> {
         match self.scene.form_factors.mode {
-            Mode::Regular => "the regular rule overestimates patches that touch",
-            Mode::MonteCarlo => "the variance is unbounded where patches touch; more --pairs help",
-            Mode::Accurate => "a smaller --tolerance helps",
+            Mode::Regular => Some("the regular rule overestimates patches that touch"),
+            Mode::MonteCarlo => {
+                Some("the variance is unbounded where patches touch; more --pairs help")
+            }
+            Mode::Accurate => None,
         }
     }
 

@@ -4,7 +4,8 @@ use crate::artifact::{How, Origin};
 use crate::cli::terminal::{Terminal, say};
 use crate::error::Error;
 use crate::lines::{
-    class_line, closed_line, closure_line, error_line, indented, row_line, scene_line,
+    class_line, closed_line, closure_line, error_line, indented, missed_line, row_line, scene_line,
+    unbalanced_lines,
 };
 use crate::pipeline::{Pipeline, Preview, Solved};
 use crate::resources::{bytes, grouped};
@@ -77,6 +78,12 @@ pub(crate) struct RowReport {
     /// The largest of them.
     #[serde(skip_serializing_if = "Option::is_none")]
     row_error_max: Option<f64>,
+    /// How many rows miss the tolerance since samples are used up, and by how much at worst; absent
+    /// where none does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rows_missed: Option<(u64, f64)>,
+    /// How many rows do not add up: fronts, backs and background do not sum to 1 within the errors.
+    rows_unbalanced: u64,
     /// Pairs by how much they see of each other, and what each class adds to the mean error of
     /// rows, weighted by area.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -99,6 +106,8 @@ impl RowReport {
             row_sum_mean_error: rows.mean_error,
             row_error_mean: rows.estimated_error.map(|(mean, _)| mean),
             row_error_max: rows.estimated_error.map(|(_, worst)| worst),
+            rows_missed: (rows.missed.0 > 0).then_some(rows.missed),
+            rows_unbalanced: rows.unbalanced.iter().map(|of| of.rows).sum(),
             classes: rows.classes,
             closure: rows.closure,
         }
@@ -144,7 +153,8 @@ impl<'a> Report<'a> {
         self.stage_line("form factors", origin);
         self.terminal
             .line(&indented(&format!("rows {}", row_line(rows))));
-        for line in error_line(rows).into_iter().chain(closure_line(rows)) {
+        let errors = error_line(rows).into_iter().chain(missed_line(rows));
+        for line in errors.chain(closure_line(rows)) {
             self.terminal.line(&indented(&line));
         }
         if pipeline.scene().closed {
@@ -154,16 +164,21 @@ impl<'a> Report<'a> {
             let patches = pipeline.mesh().patches.len();
             self.terminal.line(&indented(&class_line(classes, patches)));
         }
-        if rows.excessive > 0 {
+        if rows.excessive > 0
+            && let Some(weakness) = pipeline.known_weakness()
+        {
             let patches = pipeline.mesh().patches.len() as u64;
             let (sum, patch) = rows.largest;
             self.terminal.line(&indented(&format!(
-                "warning: {} of {} rows sum to more than 1.001, the worst to {sum:.3} (in `{}`): {}",
+                "warning: {} of {} rows sum to more than 1.001, the worst to {sum:.3} (in `{}`): {weakness}",
                 grouped(rows.excessive),
                 grouped(patches),
                 pipeline.surface_name(patch as usize),
-                pipeline.known_weakness(),
             )));
+        }
+        let name = |surface: u32| pipeline.scene().surfaces[surface as usize].name.clone();
+        for line in unbalanced_lines(rows, name) {
+            self.terminal.line(&indented(&line));
         }
         self.json.stages.form_factors = Some(FormFactorReport {
             seconds: origin.seconds,

@@ -162,6 +162,8 @@ pub(crate) fn counted(n: usize, [one, more]: [&str; 2]) -> String {
 pub(crate) const SURFACES: [&str; 2] = ["surface", "surfaces"];
 /// For [`counted`].
 pub(crate) const PATCHES: [&str; 2] = ["patch", "patches"];
+/// For [`counted`].
+pub(crate) const ROWS: [&str; 2] = ["row", "rows"];
 
 /// A size in decimal units.
 pub(crate) fn bytes(n: u64) -> String {

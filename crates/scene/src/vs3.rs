@@ -6,7 +6,6 @@
 //! one (`cmb`): here, both are of one group. (G. Walton, "Calculation of Obstructed View Factors by
 //! Adaptive Integration", NISTIR 6925, 2002.)
 
-mod holes;
 mod read;
 #[cfg(test)]
 mod tests;
@@ -17,7 +16,9 @@ use crate::scene::Scene;
 use crate::settings::{FormFactorTable, SolverTable};
 use crate::source::{Complaint, SceneError, Source};
 use crate::surface::Surface;
-use radiosity_geometry::{self as geometry, DVec3, Divisions, Shape};
+use radiosity_geometry::{
+    self as geometry, DVec3, Divisions, Polygon, PolygonMesh, Shape, area_around, remainder,
+};
 use read::{Entry, Kind};
 use std::collections::HashSet;
 
@@ -111,13 +112,12 @@ fn shape(
     }
     let holes: Vec<&[DVec3]> = on_it.iter().map(|other| &other.corners[..]).collect();
     let size = size(&entry.corners);
-    let rest = holes::remainder(&entry.corners, normal, &holes, ON_PLANE * size);
-    let covered: f64 = holes.iter().map(|hole| holes::area(hole, normal)).sum();
-    let left = Shape::Mesh(rest.clone()).polygons().unwrap_or_default();
-    let left: f64 = left.iter().map(|(_, polygon)| polygon.area()).sum();
+    let rest = remainder(&entry.corners, normal, &holes, ON_PLANE * size);
+    let covered: f64 = holes.iter().map(|hole| area_around(hole, normal)).sum();
+    let left: f64 = rest.iter().map(Polygon::area).sum();
     // Each hole may be off by the tolerance along its edges.
     let tolerance = 8.0 * ON_PLANE * size * size * holes.len() as f64;
-    if covered + left > holes::area(&entry.corners, normal) + tolerance {
+    if covered + left > area_around(&entry.corners, normal) + tolerance {
         let title = format!(
             "the surfaces on surface {} overlap each other",
             entry.number
@@ -126,7 +126,7 @@ fn shape(
             .help("cut them so that they lie side by side, or make one the base of the other");
         return Err(source.error_in_line(entry.line, &complaint));
     }
-    Ok((!rest.faces.is_empty()).then_some(Shape::Mesh(rest)))
+    Ok((!rest.is_empty()).then(|| Shape::Mesh(PolygonMesh::of(&rest))))
 }
 
 /// Refuses a surface that is not a part of its base.

@@ -1,6 +1,6 @@
 //! Where the power goes.
 
-use crate::problem::{Problem, Values};
+use crate::problem::{Problem, Values, ratio};
 use crate::{Rgb, System};
 use serde::{Deserialize, Serialize};
 
@@ -34,7 +34,7 @@ impl Energy {
             let hidden = 1.0 - system.visible[i];
             // The hidden part sees nothing else.
             let backs = (system.backs[i] - hidden).max(0.0);
-            let arrived = system.visible_area(i) / problem.areas[i];
+            let arrived = ratio(system.visible_area(i), problem.areas[i]);
             for c in 0..3 {
                 let left = area * unit[c] * f64::from(x[c]);
                 let emitted = area * unit[c] * f64::from(problem.emission[k][c]);

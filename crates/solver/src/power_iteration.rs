@@ -1,5 +1,6 @@
 //! The spectral radius of `rho F`: the factor by which light grows per bounce in the long run.
 
+use crate::problem::ratio;
 use crate::{Rgb, System};
 use radiosity_matrix::Triple;
 
@@ -41,7 +42,7 @@ fn averaged(system: &System<'_>, mut x: Vec<Triple<f32>>) -> Vec<Triple<f32>> {
         .exchange
         .sweep(&mut x, 1, &mut |_, sums, _| above.extend_from_slice(sums));
     let at = |i: usize| {
-        let gain = system.reflectance[i].map(|rho| rho * total / system.visible_area(i));
+        let gain = system.reflectance[i].map(|rho| ratio(rho * total, system.visible_area(i)));
         let sum = |c: usize| above[i][c] + below[i][c];
         std::array::from_fn(|c| (0.5 * (f64::from(x[i][c]) + gain[c] * sum(c))) as f32)
     };

@@ -37,7 +37,7 @@ impl<'a> Problem<'a> {
         let total = system.total_area();
         let area = |i: usize| system.visible_area(i) / total;
         let areas: Vec<f64> = (0..system.size()).map(area).collect();
-        let gain = |(rho, &area): (&Rgb, &f64)| rho.map(|rho| rho / area);
+        let gain = |(rho, &area): (&Rgb, &f64)| rho.map(|rho| ratio(rho, area));
         let gain = system.reflectance.iter().zip(&areas).map(gain).collect();
         let units: Vec<Rgb> = system.lights.iter().map(|light| units_of(light)).collect();
         let at = |i: usize| {

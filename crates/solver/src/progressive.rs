@@ -7,6 +7,7 @@
 //! form factors, which is what costs, serves them all.
 
 use crate::Rgb;
+use crate::problem::ratio;
 
 /// Light on its way.
 pub struct Progressive<'a> {
@@ -63,16 +64,19 @@ impl<'a> Progressive<'a> {
         order
     }
 
-    /// The place in a cluster of the patch that shoots for all: the one in the middle.
+    /// The place in a cluster of the patch that shoots for all: the one in the middle of those that are
+    /// not covered.
     pub fn shooter(&self, cluster: usize) -> usize {
-        self.clusters[cluster].len() / 2
+        let patches = &self.clusters[cluster];
+        let free = || (0..patches.len()).filter(|&place| self.areas[patches[place]] > 0.0);
+        free().nth(free().count() / 2).unwrap_or(0)
     }
 
     /// Shoots all light of a cluster along the row `S_ij` of its shooter, in units of the total area.
     pub fn shoot(&mut self, cluster: usize, row: &[f32]) {
         let shooter = self.clusters[cluster][self.shooter(cluster)];
         let total: f64 = self.areas.iter().sum();
-        let factor = |j: usize| f64::from(row[j]) * total / self.areas[shooter];
+        let factor = |j: usize| ratio(f64::from(row[j]) * total, self.areas[shooter]);
         let row_sum: f64 = (0..row.len()).map(factor).sum();
         let power = self.unshot_of(cluster);
         self.shot += power;

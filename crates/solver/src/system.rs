@@ -9,10 +9,11 @@ use radiosity_matrix::SymmetricMatrix;
 pub struct System<'a> {
     /// `S_ij = A_i F_ij`, in units of the total area.
     pub exchange: &'a SymmetricMatrix,
-    /// Patch areas, in square scene units.
+    /// The area of each patch that nothing lies on, in square scene units; 0 for a patch that is covered,
+    /// which exchanges nothing.
     pub areas: &'a [f64],
-    /// The share of each patch that exchanges light, in (0, 1]; the rest lies inside of something, or is
-    /// covered. Radiosities are those of this part.
+    /// The share of that area that exchanges light, in (0, 1]; the rest lies inside of something.
+    /// Radiosities are those of this part.
     pub visible: &'a [f64],
     /// Diffuse reflectance of each patch, in [0, 1].
     pub reflectance: &'a [Rgb],
@@ -25,7 +26,7 @@ pub struct System<'a> {
 }
 
 impl System<'_> {
-    /// The sum of all patch areas.
+    /// The sum of all these areas.
     pub fn total_area(&self) -> f64 {
         self.areas.iter().sum()
     }

@@ -50,7 +50,7 @@ fn ratio(i: &Element, j: &Element) -> f64 {
 
 fn face_whole(i: &Element, j: &Element) -> bool {
     let in_front = |a: &Element, b: &Element| {
-        b.corners
+        b.corners()
             .iter()
             .all(|&corner| a.normal.dot(corner - a.centroid) >= 0.0)
     };
@@ -74,7 +74,7 @@ fn rules_keep_their_error() {
             if !face_whole(&i, &j) || ratio > 0.5 {
                 continue;
             }
-            let exact = contour::exchange(&i.corners, &j.corners, 1e-12);
+            let exact = contour::exchange(i.corners(), j.corners(), 1e-12);
             let found = all_pairs(&i, &j, rule);
             let bound = constant * ratio.powi(2 * (rule as i32 + 1));
             let squarely = i.area() * j.area() / (PI * i.centroid.distance_squared(j.centroid));
@@ -104,7 +104,7 @@ fn lanes_are_plain_sums() {
         if others.is_empty() {
             continue;
         }
-        let tile = FarTile::new(&others.iter().collect());
+        let tile = FarTile::new(&others.iter().map(Some).collect()).unwrap();
         let found = exchange(&i, &tile, error, 0.0);
         for (lane, j) in others.iter().enumerate() {
             let will_do =

@@ -78,9 +78,18 @@ fn check_ray(occluders: &Occluders, ray: &Ray, except: Option<FaceId>) {
         let side = hits
             .iter()
             .filter(|hit| hit.front == front && hit.t <= horizon);
+        let set_back = |hit: &Hit| match front {
+            true => hit.t + occluders.set_back(hit.face, ray),
+            false => hit.t,
+        };
         // Zeros are equal whatever their sign; the first of equals wins.
-        side.copied()
-            .reduce(|best, hit| if hit.t < best.t { hit } else { best })
+        side.copied().reduce(|best, hit| {
+            if set_back(&hit) < set_back(&best) {
+                hit
+            } else {
+                best
+            }
+        })
     };
     let (front, back) = (nearest(true), nearest(false));
     let backed = back.is_some();

@@ -34,7 +34,8 @@ pub(super) struct Viewed<'a> {
     pub(super) camera: &'a Camera,
     /// The directions of the film.
     pub(super) film: [DVec3; 3],
-    /// How far backs are set back, so that fronts in the same plane hide them.
+    /// How far faces are set back for each that others in their plane are to be seen before: backs behind
+    /// fronts, and faces behind those that lie on them.
     pub(super) tolerance: f64,
 }
 
@@ -67,14 +68,20 @@ impl Linear {
 }
 
 impl SeenFace {
-    pub(super) fn new(id: FaceId, face: &Face, viewed: &Viewed<'_>) -> Option<SeenFace> {
+    /// A face below so many others in its plane.
+    pub(super) fn new(
+        (id, face): (FaceId, &Face),
+        layer: u32,
+        viewed: &Viewed<'_>,
+    ) -> Option<SeenFace> {
         let Viewed { camera, film, .. } = viewed;
         let corners = face.polygon.padded_corners();
         let [a, b, c, d] = corners.map(|corner| corner - camera.position());
         let height = face.normal.dot(a);
         let side = height.signum();
         let front = height < 0.0;
-        let set_back = if front { 0.0 } else { viewed.tolerance };
+        let steps = if front { layer } else { layer + 1 };
+        let set_back = side * f64::from(steps) * viewed.tolerance;
         let depth = face.normal / (height + set_back);
         let edge = |from: DVec3, to: DVec3| Linear::of(side * from.cross(to), film);
         let (along_u, along_v) = match face.grid {

@@ -5,7 +5,9 @@ use super::site::Site;
 use super::terminal::say;
 use crate::error::Error;
 use crate::inspect::{CLOSURE_BOUNDS, FactorInspection, Inspection, SolutionInspection, WorstRow};
-use crate::lines::{class_line, closure_line, error_line, indented, labelled, row_line};
+use crate::lines::{
+    class_line, closure_line, error_line, indented, labelled, missed_line, row_line,
+};
 use crate::resources::{PATCHES, SURFACES, bytes, counted, grouped};
 use radiosity_cache::{Miss, open};
 use std::path::Path;
@@ -88,6 +90,7 @@ fn factor_lines(found: &FactorInspection) -> Vec<String> {
     ];
     let more = error_line(&found.rows)
         .into_iter()
+        .chain(missed_line(&found.rows))
         .chain(closure_line(&found.rows));
     lines.extend(more.map(|line| indented(&line)));
     let classes = found.rows.classes.as_ref();

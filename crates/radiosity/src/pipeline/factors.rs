@@ -68,7 +68,8 @@ impl Pipeline<'_> {
         let (form_factors, mut origin) = obtain(self.cache, self.observer, id, sources, recipe)?;
         origin.bytes = 4 * form_factors.exchange.values().len() as u64;
         origin.seconds = start.elapsed().as_secs_f64();
-        let rows = RowSummary::of(&form_factors);
+        let surface = |patch: usize| self.mesh.patches[patch].surface.index();
+        let rows = RowSummary::of(&form_factors, surface);
         Ok(FormFactorsMade {
             form_factors,
             rows,
@@ -101,9 +102,9 @@ impl Pipeline<'_> {
     ) -> Option<FormFactors> {
         let patches = self.mesh.patches.len();
         let exchange = SymmetricMatrix::new(patches, values).ok()?;
-        let areas = self.mesh.patches.iter().map(|patch| patch.area).collect();
-        (facts.rows.len() == patches).then_some(FormFactors {
-            areas,
+        let is_complete = facts.rows.len() == patches && facts.areas.len() == patches;
+        is_complete.then_some(FormFactors {
+            areas: facts.areas,
             exchange,
             rows: facts.rows,
             classes: facts.classes,

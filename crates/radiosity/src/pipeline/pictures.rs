@@ -214,7 +214,12 @@ fn irradiance(factors: &FormFactors, exitance: &[[f32; 3]], visible: &[f32]) -> 
         let channel: Vec<f64> = exitance.iter().map(|of| f64::from(of[c])).collect();
         let sums = factors.exchange.product(&channel);
         for ((result, sum), area) in result.iter_mut().zip(sums).zip(&areas) {
-            result[c] = (sum * total / area) as f32;
+            // A covered patch has no area.
+            result[c] = if *area > 0.0 {
+                (sum * total / area) as f32
+            } else {
+                0.0
+            };
         }
     }
     result

@@ -32,12 +32,12 @@ impl Pipeline<'_> {
     /// leaves from. Nothing is taken from the cache or put there.
     pub fn preview(&self, share: f64) -> Result<Preview, Error> {
         let estimation = Estimation::new(&self.mesh, settings::estimator(self.scene));
-        let areas: Vec<f64> = self.mesh.patches.iter().map(|patch| patch.area).collect();
+        let areas = estimation.areas();
         let clusters = estimation.clusters().map(<[usize]>::to_vec).collect();
         // All lights at once, as bright as they are: what is dimmed is worth fewer rows.
         let emission = self.dimmed_emission().into_iter();
         let lights = [emission.map(|e| e.map(f64::from)).collect()];
-        let mut light = Progressive::new(&areas, &self.reflectance, &lights, clusters);
+        let mut light = Progressive::new(areas, &self.reflectance, &lights, clusters);
         let pairs = packed_len(areas.len()).max(1) as f64;
         let most = (share * pairs / areas.len().max(1) as f64).ceil() as usize;
         let mut rows: BTreeMap<usize, Vec<f32>> = BTreeMap::new();

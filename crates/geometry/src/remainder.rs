@@ -1,55 +1,66 @@
 //! Convex polygons without the convex polygons that lie on them.
 
-use radiosity_geometry::{DVec3, PolygonMesh};
+use crate::polygon::Polygon;
+use glam::DVec3;
 
 /// The part of a planar convex polygon that other ones in its plane, turning the same way, do
-/// not cover, as faces of three or four corners. What is narrower than `tolerance` is rounding.
-pub(super) fn remainder(
+/// not cover, in polygons of three or four corners. What is narrower than `tolerance` is rounding.
+pub fn remainder(
     whole: &[DVec3],
     normal: DVec3,
     holes: &[&[DVec3]],
     tolerance: f64,
-) -> PolygonMesh {
+) -> Vec<Polygon> {
     let mut pieces = vec![whole.to_vec()];
     for hole in holes {
-        let around = |piece: Vec<DVec3>| outside(piece, hole, normal, tolerance);
+        let around = |piece: Vec<DVec3>| outside(piece, hole, normal, tolerance).0;
         pieces = pieces.into_iter().flat_map(around).collect();
         pieces = pieces
             .iter()
             .filter_map(|piece| tidy(piece, normal, tolerance))
             .collect();
     }
-    let mut mesh = PolygonMesh::default();
-    for piece in pieces {
-        let first = mesh.positions.len() as u32;
-        let last = first + piece.len() as u32 - 1;
-        mesh.positions.extend(piece);
-        let mut at = first + 1;
-        while at < last {
-            let next = last.min(at + 2);
-            let face = [first, at, at + 1, next];
-            mesh.faces.push(face[..(next - at + 2) as usize].to_vec());
-            at = next;
-        }
-    }
-    mesh
+    pieces.iter().flat_map(|piece| fan(piece)).collect()
 }
 
-/// What of a polygon is outside of a hole: what is beyond its first edge, of the rest what is
-/// beyond the second, and so on.
-fn outside(piece: Vec<DVec3>, hole: &[DVec3], normal: DVec3, tolerance: f64) -> Vec<Vec<DVec3>> {
+/// Whether two planar convex polygons in one plane, turning the same way, overlap by more than
+/// `tolerance`.
+pub(crate) fn overlap(a: &[DVec3], b: &[DVec3], normal: DVec3, tolerance: f64) -> bool {
+    let (_, common) = outside(a.to_vec(), b, normal, tolerance);
+    common.is_some_and(|common| tidy(&common, normal, tolerance).is_some())
+}
+
+/// A convex polygon in polygons of three or four corners, all of which have its first.
+fn fan(corners: &[DVec3]) -> Vec<Polygon> {
+    let (first, rest) = (corners[0], &corners[1..]);
+    let pieces = rest[..rest.len() - 1].chunks(2).zip(rest[1..].chunks(2));
+    let piece = |(from, to): (&[DVec3], &[DVec3])| match *to {
+        [middle, last] => Polygon::quad([first, from[0], middle, last]),
+        _ => Polygon::triangle([first, from[0], to[0]]),
+    };
+    pieces.map(piece).collect()
+}
+
+/// What of a polygon is outside of a hole, in pieces, and what is inside: what is beyond the hole's
+/// first edge, of the rest what is beyond the second, and so on.
+fn outside(
+    piece: Vec<DVec3>,
+    hole: &[DVec3],
+    normal: DVec3,
+    tolerance: f64,
+) -> (Vec<Vec<DVec3>>, Option<Vec<DVec3>>) {
     let mut beyond = Vec::new();
-    let mut rest = piece;
+    let mut rest = Some(piece);
     for (k, &corner) in hole.iter().enumerate() {
         let along = (hole[(k + 1) % hole.len()] - corner).normalize_or_zero();
-        let (left, right) = split(&rest, corner, normal.cross(along), tolerance);
+        let Some(piece) = rest else {
+            break;
+        };
+        let (left, right) = split(&piece, corner, normal.cross(along), tolerance);
         beyond.extend(right);
-        match left {
-            Some(left) => rest = left,
-            None => break,
-        }
+        rest = left;
     }
-    beyond
+    (beyond, rest)
 }
 
 /// Both sides of a line: the one that the unit vector `inward` points to, and the other. Corners
@@ -103,12 +114,12 @@ fn tidy(polygon: &[DVec3], normal: DVec3, tolerance: f64) -> Option<Vec<DVec3>> 
     }
     let edges = (0..corners.len()).map(|k| corners[k].distance(corners[(k + 1) % corners.len()]));
     let longest = edges.fold(0.0, f64::max);
-    let is_sliver = corners.len() < 3 || 2.0 * area(&corners, normal) <= tolerance * longest;
+    let is_sliver = corners.len() < 3 || 2.0 * area_around(&corners, normal) <= tolerance * longest;
     (!is_sliver).then_some(corners)
 }
 
 /// The area of a polygon, positive if it turns counter-clockwise around the normal.
-pub(super) fn area(polygon: &[DVec3], normal: DVec3) -> f64 {
+pub fn area_around(polygon: &[DVec3], normal: DVec3) -> f64 {
     let from = polygon[0];
     let around = polygon
         .windows(2)
@@ -119,9 +130,10 @@ pub(super) fn area(polygon: &[DVec3], normal: DVec3) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vs3::ON_PLANE;
     use proptest::prelude::*;
-    use radiosity_geometry::Shape;
+
+    /// Relative to the size of polygons.
+    const TOLERANCE: f64 = 1e-5;
 
     fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Vec<DVec3> {
         let at = |x, y| DVec3::new(x, y, 2.0);
@@ -136,17 +148,13 @@ mod tests {
     /// The faces that remain of the unit square, checked to be usable.
     fn faces(holes: &[Vec<DVec3>]) -> Vec<Vec<DVec3>> {
         let holes: Vec<&[DVec3]> = holes.iter().map(Vec::as_slice).collect();
-        let mesh = remainder(&rectangle(0.0, 0.0, 1.0, 1.0), DVec3::Z, &holes, ON_PLANE);
-        let shape = Shape::Mesh(mesh);
-        let polygons = shape.polygons().unwrap();
-        polygons
-            .iter()
-            .map(|(_, polygon)| polygon.corners().to_vec())
-            .collect()
+        let rest = remainder(&rectangle(0.0, 0.0, 1.0, 1.0), DVec3::Z, &holes, TOLERANCE);
+        let corners = rest.iter().map(|polygon| polygon.corners().to_vec());
+        corners.collect()
     }
 
     fn total(faces: &[Vec<DVec3>]) -> f64 {
-        faces.iter().map(|face| area(face, DVec3::Z)).sum()
+        faces.iter().map(|face| area_around(face, DVec3::Z)).sum()
     }
 
     #[test]
@@ -169,22 +177,14 @@ mod tests {
         let at = |x, y| DVec3::new(x, y, 2.0);
         let pieces = faces(&[vec![at(0.3, 0.4), at(0.6, 0.3), at(0.5, 0.7)]]);
         assert!(pieces.iter().all(|face| matches!(face.len(), 3 | 4)));
-        let hole = area(&[at(0.3, 0.4), at(0.6, 0.3), at(0.5, 0.7)], DVec3::Z);
+        let hole = area_around(&[at(0.3, 0.4), at(0.6, 0.3), at(0.5, 0.7)], DVec3::Z);
         assert!((total(&pieces) - 1.0 + hole).abs() < 1e-12);
     }
 
     #[test]
     fn nothing_is_left_of_what_is_covered() {
-        let mesh = remainder(
-            &rectangle(0.0, 0.0, 1.0, 1.0),
-            DVec3::Z,
-            &[
-                &rectangle(0.0, 0.0, 0.5, 1.0),
-                &rectangle(0.5, 0.0, 0.5, 1.0),
-            ],
-            ON_PLANE,
-        );
-        assert!(mesh.faces.is_empty());
+        let halves = [rectangle(0.0, 0.0, 0.5, 1.0), rectangle(0.5, 0.0, 0.5, 1.0)];
+        assert!(faces(&halves).is_empty());
     }
 
     proptest! {
@@ -207,13 +207,12 @@ mod tests {
             let holes = [part(0.1, 0.0, door, 0.8), part(0.1 + door, 0.4, 0.3, 0.4)];
             let normal = (wall[1] - wall[0]).cross(wall[3] - wall[0]).normalize();
             let holes: Vec<&[DVec3]> = holes.iter().map(Vec::as_slice).collect();
-            let mesh = remainder(&wall, normal, &holes, 5.0 * ON_PLANE);
-            let polygons = Shape::Mesh(mesh).polygons().unwrap();
-            let sum: f64 = polygons.iter().map(|(_, polygon)| polygon.area()).sum();
+            let polygons = remainder(&wall, normal, &holes, 5.0 * TOLERANCE);
+            let sum: f64 = polygons.iter().map(Polygon::area).sum();
             let expected = 13.5 * (1.0 - 0.8 * door - 0.12);
             // As many edges as there may be, each off by the tolerance.
-            prop_assert!((sum - expected).abs() < 20.0 * 5.0 * 5.0 * ON_PLANE, "{sum} {expected}");
-            for (_, polygon) in polygons {
+            prop_assert!((sum - expected).abs() < 20.0 * 5.0 * 5.0 * TOLERANCE, "{sum} {expected}");
+            for polygon in polygons {
                 let width = 2.0 * polygon.area() / polygon.longest_edge();
                 prop_assert!(width > 1e-3, "{width}");
             }
