@@ -30,14 +30,34 @@ struct Edge {
     length: f64,
 }
 
+/// An integral, and what rounding may have done to it.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Integral {
+    pub(crate) value: f64,
+    pub(crate) rounding: f64,
+}
+
+impl Integral {
+    pub(crate) fn add(&mut self, other: Integral) {
+        self.value += other.value;
+        self.rounding += other.rounding;
+    }
+}
+
+/// Rounding of sums of products and logarithms, relative to the sum of their sizes.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 /// `S = A_i F_ij` of two polygons, each wholly in front of the other: the corners of each,
 /// counter-clockwise seen from its front. Edges that part by no more than `tolerance`, to which
 /// coordinates are rounded, are parallel.
-pub(crate) fn exchange(i: &[DVec3], j: &[DVec3], tolerance: f64) -> f64 {
+///
+/// The terms are as large as the square of the larger polygon, or of the distance, and cancel to what is
+/// as small as the smaller one: `rounding` is what that costs.
+pub(crate) fn exchange(i: &[DVec3], j: &[DVec3], tolerance: f64) -> Integral {
     // Any constant may be taken from the logarithm, as contours are closed: one that makes it
     // small keeps the rounding small.
     let unit = 1.0 / i[0].distance_squared(j[0]).max(i[0].distance_squared(i[1]));
-    let mut sum = 0.0;
+    let (mut sum, mut size) = (0.0, 0.0);
     for a in edges(i) {
         for b in edges(j) {
             let cosine = a.tangent.dot(b.tangent);
@@ -45,7 +65,7 @@ pub(crate) fn exchange(i: &[DVec3], j: &[DVec3], tolerance: f64) -> f64 {
                 continue;
             }
             let sine = a.tangent.cross(b.tangent).length();
-            let integral = if sine * a.length.min(b.length) <= tolerance {
+            let (integral, of_terms) = if sine * a.length.min(b.length) <= tolerance {
                 parallel(&a, &b, unit)
             } else if a.length < b.length {
                 skew(&a, &b, unit)
@@ -53,9 +73,13 @@ pub(crate) fn exchange(i: &[DVec3], j: &[DVec3], tolerance: f64) -> f64 {
                 skew(&b, &a, unit)
             };
             sum += cosine * integral;
+            size += cosine.abs() * of_terms;
         }
     }
-    sum / TAU
+    Integral {
+        value: sum / TAU,
+        rounding: ROUNDING * size / TAU,
+    }
 }
 
 fn edges(corners: &[DVec3]) -> impl Iterator<Item = Edge> {
@@ -75,8 +99,8 @@ fn edges(corners: &[DVec3]) -> impl Iterator<Item = Edge> {
 }
 
 /// `int int ln(r sqrt(unit))` over two parallel edges, by the second antiderivative of
-/// `ln(x^2 + d^2) / 2`.
-fn parallel(a: &Edge, b: &Edge, unit: f64) -> f64 {
+/// `ln(x^2 + d^2) / 2`; and the sum of the sizes of its terms.
+fn parallel(a: &Edge, b: &Edge, unit: f64) -> (f64, f64) {
     let offset = a.start - b.start;
     let squared = offset.cross(b.tangent).length_squared();
     let distance = squared.sqrt();
@@ -95,13 +119,17 @@ fn parallel(a: &Edge, b: &Edge, unit: f64) -> f64 {
         };
         0.5 * (0.5 * (x * x - squared) * log(r * unit) + angle - 1.5 * x * x)
     };
-    second(high) - second(low) - second(high - b.length) + second(low - b.length)
+    let terms = [high, low, high - b.length, low - b.length].map(second);
+    (
+        terms[0] - terms[1] - terms[2] + terms[3],
+        terms.into_iter().map(f64::abs).sum(),
+    )
 }
 
 /// The same over two edges at an angle: by Gauss's rule along `outer`.
-fn skew(outer: &Edge, inner: &Edge, unit: f64) -> f64 {
+fn skew(outer: &Edge, inner: &Edge, unit: f64) -> (f64, f64) {
     let mut parts = vec![(0.0, outer.length, 0)];
-    let mut sum = 0.0;
+    let (mut sum, mut size) = (0.0, 0.0);
     while let Some((from, to, halvings)) = parts.pop() {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         let point = |s: f64| outer.start + s * outer.tangent;
@@ -121,14 +149,16 @@ fn skew(outer: &Edge, inner: &Edge, unit: f64) -> f64 {
             continue;
         };
         for &(x, weight) in gauss::rule(points) {
-            sum += 2.0 * half * weight * along(point(from + 2.0 * half * x), inner, unit);
+            let [end, start] = along(point(from + 2.0 * half * x), inner, unit);
+            sum += 2.0 * half * weight * (end - start);
+            size += 2.0 * half * weight * (end.abs() + start.abs());
         }
     }
-    sum
+    (sum, size)
 }
 
-/// `int ln(r sqrt(unit))` from a point along an edge.
-fn along(point: DVec3, edge: &Edge, unit: f64) -> f64 {
+/// The antiderivative of `ln(r sqrt(unit))` from a point, at the end and at the start of an edge.
+fn along(point: DVec3, edge: &Edge, unit: f64) -> [f64; 2] {
     let offset = point - edge.start;
     let foot = offset.dot(edge.tangent);
     let squared = offset.cross(edge.tangent).length_squared();
@@ -145,7 +175,7 @@ fn along(point: DVec3, edge: &Edge, unit: f64) -> f64 {
         };
         0.5 * (x * log(r * unit) + angle) - x
     };
-    first(edge.length - foot) - first(-foot)
+    [first(edge.length - foot), first(-foot)]
 }
 
 /// From a point to the nearest point of an edge.

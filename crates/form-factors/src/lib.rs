@@ -34,6 +34,7 @@ mod fixed;
 mod gauss;
 mod hidden;
 mod hull;
+mod lambert;
 mod lattice;
 mod lines;
 mod lumped;

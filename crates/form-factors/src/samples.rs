@@ -14,8 +14,10 @@ pub(crate) type Lanes<T> = [T; LANES];
 /// Few points stand for all beyond so many radii: factors by either differ by less than 1e-6 there
 /// (`tests/few_points.rs` says why).
 const NEAR: f32 = 10.8;
+/// Scenes larger than this, in patches, have units of their own between both.
+const LARGEST: f64 = 1e6;
 
-/// The points of a tile, in units of the scene's extent.
+/// The points of a tile, in [`Units`].
 #[derive(Clone, Debug)]
 pub(crate) struct Samples {
     pub(crate) points: Vec<Point<f64>>,
@@ -66,7 +68,15 @@ pub(crate) struct Units {
 impl Units {
     pub(crate) fn of(mesh: &Mesh) -> Units {
         let corners = mesh.faces.iter().flat_map(|face| face.polygon.corners());
-        let length = Aabb::around(corners.copied()).extent().max_element();
+        let extent = Aabb::around(corners.copied()).extent().max_element();
+        let lengths = mesh.patches.iter().map(|patch| patch.area.sqrt());
+        let smallest = lengths.fold(extent, f64::min);
+        // Single precision has room for fourth powers of either.
+        let length = if extent > LARGEST * smallest {
+            (extent * smallest).sqrt()
+        } else {
+            extent
+        };
         Units {
             length,
             area: length * (PI * mesh.total_area()).sqrt(),

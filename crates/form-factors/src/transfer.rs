@@ -34,10 +34,10 @@ pub(crate) struct Source {
     heights: Lanes<f32>,
 }
 
-/// Points nearer than this, in units of the scene's extent, exchange nothing: where patches cross and
+/// Points nearer than this, in radii of the smaller patch, exchange nothing: where patches cross and
 /// points coincide, heights are rounding.
-const NEAREST: f32 = 1e-6;
-/// Points are farther apart than [`NEAREST`] if centroids are by more than that and so many radii.
+const NEAREST: f32 = 1e-5;
+/// Points are farther apart than that if centroids are by more than so many radii of the larger patch.
 const TOUCHING: f32 = 2.1;
 /// Squared: as good as infinitely far, but two such squares still have a product.
 const INFINITE: f32 = 1e18;
@@ -64,6 +64,7 @@ impl Kernel for Transfer<'_> {
             plane: Plane::of(from, lane),
             sources: self.sources,
             targets: &self.to.points,
+            nearest: distance.nearest,
             blocked,
         };
         let all = match (blocked.is_empty(), distance.never_touch) {
@@ -108,6 +109,7 @@ fn by_few<S: Simd>(
         plane: Plane::of(from, lane),
         sources,
         targets: &to.stand_ins,
+        nearest: [0.0; LANES],
         blocked: &[],
     };
     pairs.sum::<S, false, true>(simd)
@@ -154,6 +156,8 @@ struct Distance {
     /// Which are so far that few points can stand for all, and all of them lie on one side of the plane
     /// of the other patch.
     far: u8,
+    /// What counts as no distance.
+    nearest: Lanes<f32>,
 }
 
 impl Distance {
@@ -169,9 +173,8 @@ impl Distance {
         let squared = x * x + y * y + z * z;
         let (radius_to, radius_from) = (simd.f32(&to.radius), simd.splat_f32(from.radius[lane]));
         let larger = radius_to.max(radius_from);
-        let touching = simd.splat_f32(TOUCHING) * larger + simd.splat_f32(NEAREST);
+        let touching = simd.splat_f32(TOUCHING) * larger;
         let near = simd.f32(&to.near).max(simd.splat_f32(from.near[lane]));
-        let near = near + simd.splat_f32(NEAREST);
         let height_to = times(simd, [x, y, z], at(&from.normal, lane));
         let [nx, ny, nz] = load(simd, &to.normal);
         let height_from = nx * x + ny * y + nz * z;
@@ -181,6 +184,7 @@ impl Distance {
         Distance {
             never_touch: (touching * touching).less(squared) == !0,
             far,
+            nearest: (simd.splat_f32(NEAREST) * radius_to.min(radius_from)).lanes(),
         }
     }
 }
@@ -214,6 +218,8 @@ struct Pairs<'a> {
     plane: Plane,
     sources: &'a [Source],
     targets: &'a [Point<f32>],
+    /// Of each lane, as in [`Distance`].
+    nearest: Lanes<f32>,
     /// As in [`Transfer`].
     blocked: &'a [u8],
 }
@@ -224,6 +230,8 @@ impl Pairs<'_> {
     fn sum<S: Simd, const BLOCKED: bool, const APART: bool>(self, simd: S) -> S::F32 {
         let offset = simd.splat_f32(self.plane.offset);
         let (zero, one) = (simd.splat_f32(0.0), simd.splat_f32(1.0));
+        let nearest = simd.f32(&self.nearest);
+        let nearest = nearest * nearest;
         let count = self.sources.len();
         let (pairs, rest) = self.sources.as_chunks::<2>();
         let mut total = zero;
@@ -237,8 +245,8 @@ impl Pairs<'_> {
             };
             let mut from_all = zero;
             for (k, [a, b]) in pairs.iter().enumerate() {
-                let square_a = squared_distance::<S, APART>(simd, a, position);
-                let square_b = squared_distance::<S, APART>(simd, b, position);
+                let square_a = squared_distance::<S, APART>(simd, a, position, nearest);
+                let square_b = squared_distance::<S, APART>(simd, b, position, nearest);
                 // One division for two.
                 let inverse = one / (square_a * square_b);
                 let (per_a, per_b) = (inverse * square_b, inverse * square_a);
@@ -251,7 +259,7 @@ impl Pairs<'_> {
                 from_all = from_all + (kernel_a + kernel_b);
             }
             if let [last] = rest {
-                let per = one / squared_distance::<S, APART>(simd, last, position);
+                let per = one / squared_distance::<S, APART>(simd, last, position, nearest);
                 let mut kernel = simd.f32(&last.heights) * (per * per);
                 if BLOCKED {
                     kernel = zero.select(blocked[count - 1], kernel);
@@ -270,6 +278,7 @@ fn squared_distance<S: Simd, const APART: bool>(
     simd: S,
     source: &Source,
     [x, y, z]: [S::F32; 3],
+    nearest: S::F32,
 ) -> S::F32 {
     let [from_x, from_y, from_z] = source.position;
     let x = x - simd.splat_f32(from_x);
@@ -279,6 +288,5 @@ fn squared_distance<S: Simd, const APART: bool>(
     if APART {
         return squared;
     }
-    simd.splat_f32(NEAREST * NEAREST)
-        .if_less(squared, squared, simd.splat_f32(INFINITE))
+    nearest.if_less(squared, squared, simd.splat_f32(INFINITE))
 }

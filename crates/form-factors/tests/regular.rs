@@ -97,3 +97,34 @@ fn cornell_closed() {
 fn cornell_triangles() {
     check("cornell-triangles");
 }
+
+/// Two plates that face each other, and a third one far away: by which points count as one goes by
+/// patches, not by the scene.
+#[test]
+fn what_is_far_away_changes_nothing() {
+    let plate = |x: f64, z: f64, up: bool| Surface {
+        shape: Shape::Parallelogram {
+            corner: DVec3::new(x, 0.0, z),
+            edge_a: if up { DVec3::X } else { DVec3::Y },
+            edge_b: if up { DVec3::Y } else { DVec3::X },
+        },
+        divisions: None,
+    };
+    let near = [plate(0.0, 0.0, true), plate(0.0, 1.0, false)];
+    let factors = |surfaces: &[Surface]| {
+        let mesh = subdivide(surfaces, Divisions::uniform(2)).unwrap();
+        estimate(&mesh, Estimator::Regular { points: 3 }, &|_| ())
+    };
+    let alone = factors(&near);
+    for away in [1e4, 2e6, 1e9] {
+        let [low, high] = near.clone();
+        let found = factors(&[low, high, plate(away, 2.0, false)]);
+        for (i, j) in (0..4).flat_map(|i| (4..8).map(move |j| (i, j))) {
+            let (found, expected) = (found.factor(i, j), alone.factor(i, j));
+            assert!(
+                (found / expected - 1.0).abs() < 1e-5,
+                "{away} {found} {expected}"
+            );
+        }
+    }
+}

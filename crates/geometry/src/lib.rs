@@ -53,8 +53,10 @@ pub use occluders::{Hit, Occluders};
 pub use polygon::Polygon;
 pub use polygon_mesh::PolygonMesh;
 pub use ray::Ray;
-pub use remainder::{area_around, remainder};
+pub use remainder::{area_around, fan, remainder};
 pub use screen::{Backs, Linear, Offsets, Screen, Seen, SeenFace};
 pub use shape::Shape;
-pub use subdivide::{Divisions, MAX_PATCHES, MeshError, Surface, count_patches, subdivide};
+pub use subdivide::{
+    Divisions, LEAST_SIZE, MAX_PATCHES, MeshError, Surface, count_patches, subdivide,
+};
 pub use walls::Walls;

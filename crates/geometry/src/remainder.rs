@@ -31,7 +31,7 @@ pub(crate) fn overlap(a: &[DVec3], b: &[DVec3], normal: DVec3, tolerance: f64) -
 }
 
 /// A convex polygon in polygons of three or four corners, all of which have its first.
-fn fan(corners: &[DVec3]) -> Vec<Polygon> {
+pub fn fan(corners: &[DVec3]) -> Vec<Polygon> {
     let (first, rest) = (corners[0], &corners[1..]);
     let pieces = rest[..rest.len() - 1].chunks(2).zip(rest[1..].chunks(2));
     let piece = |(from, to): (&[DVec3], &[DVec3])| match *to {

@@ -78,6 +78,20 @@ pub enum MeshError {
         /// The surface.
         surface: SurfaceId,
     },
+    /// A patch is so small beside the coordinates that these have no digits left for it.
+    #[error(
+        "surface {} has a patch of size {size:.1e} where coordinates are up to {largest:.1e}: at least \
+         {allowed:.1e} is needed; move the scene to the origin, or leave out what is far away", surface.0,
+        allowed = LEAST_SIZE * largest
+    )]
+    NoDigits {
+        /// The surface.
+        surface: SurfaceId,
+        /// The longest edge of the patch.
+        size: f64,
+        /// The largest coordinate of the scene.
+        largest: f64,
+    },
     /// More patches than indices can name.
     #[error("the subdivision gives more than 1,048,576 patches; choose a coarser one")]
     TooManyPatches,
@@ -88,6 +102,10 @@ pub enum MeshError {
 
 /// The largest number of patches a mesh may have; their matrix would already fill 2 TB.
 pub const MAX_PATCHES: usize = 1 << 20;
+
+/// The least size of a patch, relative to the largest coordinate of the scene: a hundred times what
+/// counts as rounding.
+pub const LEAST_SIZE: f64 = 1e-10;
 
 /// Cuts all surfaces into patches.
 ///
@@ -111,7 +129,23 @@ pub fn subdivide(surfaces: &[Surface], default: Divisions) -> Result<Mesh, MeshE
         let patch = |(cell, polygon)| new_patch(face, FaceId(index as u32), cell, polygon);
         mesh.patches.extend(cells(face).into_iter().map(patch));
     }
+    check_sizes(&mesh)?;
     Ok(mesh)
+}
+
+/// Refuses patches for which coordinates leave no digits.
+fn check_sizes(mesh: &Mesh) -> Result<(), MeshError> {
+    let bounds = mesh.bounds();
+    let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
+    let is_too_small = |patch: &&Patch| patch.polygon.longest_edge() < LEAST_SIZE * largest;
+    match mesh.patches.iter().find(is_too_small) {
+        Some(patch) => Err(MeshError::NoDigits {
+            surface: patch.surface,
+            size: patch.polygon.longest_edge(),
+            largest,
+        }),
+        None => Ok(()),
+    }
 }
 
 /// How many patches [`subdivide`] would give, without making them.

@@ -379,3 +379,35 @@ proptest! {
         }
     }
 }
+
+/// A unit square far from the origin: where a hundred times the rounding of coordinates is more than a patch,
+/// it is refused.
+#[test]
+fn patches_need_digits() {
+    let square = |away: f64| {
+        let corner = DVec3::new(away, -away, 0.5);
+        let surface = Surface {
+            shape: Shape::Parallelogram {
+                corner,
+                edge_a: DVec3::X,
+                edge_b: DVec3::Y,
+            },
+            divisions: None,
+        };
+        subdivide(&[surface], Divisions::uniform(2))
+    };
+    assert!(square(4.9e9).is_ok());
+    for away in [5.1e9, 1e12, 1e15] {
+        let error = square(away).unwrap_err();
+        assert!(
+            matches!(
+                error,
+                MeshError::NoDigits {
+                    surface: SurfaceId(0),
+                    ..
+                }
+            ),
+            "{error}"
+        );
+    }
+}

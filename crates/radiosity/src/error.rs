@@ -1,7 +1,7 @@
 //! What can go wrong, for people and for exit codes.
 
 use radiosity_cache::CacheError;
-use radiosity_geometry::MeshError;
+use radiosity_geometry::{LEAST_SIZE, MeshError};
 use radiosity_scene::{Scene, SceneError};
 use radiosity_solver::SolveError;
 use std::path::PathBuf;
@@ -91,6 +91,17 @@ impl Error {
                     "surface `{name}` has no usable subdivision: counts and lengths must be positive"
                 )
             }
+            MeshError::NoDigits {
+                surface,
+                size,
+                largest,
+            } => format!(
+                "a patch of `{}` is {size:.1e} large, where coordinates are up to {largest:.1e}: they leave \
+                 no digits for it (at least {:.1e} is needed)\n   = help: move the scene to the origin, or \
+                 leave out what is far away",
+                name(surface),
+                LEAST_SIZE * largest,
+            ),
             other => other.to_string(),
         })
     }

@@ -4,7 +4,7 @@ use super::*;
 use std::f64::consts::PI;
 
 fn exchange(i: &[DVec3], j: &[DVec3]) -> f64 {
-    super::exchange(i, j, 1e-12)
+    super::exchange(i, j, 1e-12).value
 }
 
 fn square(z: f64, up: bool, low: f64, high: f64) -> [DVec3; 4] {

@@ -74,7 +74,7 @@ fn rules_keep_their_error() {
             if !face_whole(&i, &j) || ratio > 0.5 {
                 continue;
             }
-            let exact = contour::exchange(i.corners(), j.corners(), 1e-12);
+            let exact = contour::exchange(i.corners(), j.corners(), 1e-12).value;
             let found = all_pairs(&i, &j, rule);
             let bound = constant * ratio.powi(2 * (rule as i32 + 1));
             let squarely = i.area() * j.area() / (PI * i.centroid.distance_squared(j.centroid));

@@ -108,7 +108,7 @@ fn samples_add_up_to_the_exchange() {
     let touching = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
     for mesh in [scene(), touching] {
         let corners = |k: usize| mesh.patches[k].polygon.corners();
-        let exact = crate::contour::exchange(corners(0), corners(1), 1e-12);
+        let exact = crate::contour::exchange(corners(0), corners(1), 1e-12).value;
         let occluders = Occluders::new(&mesh);
         let faces = [0, 1].map(|k: usize| mesh.patches[k].face);
         for pair in [[0, 1], [1, 0]] {
