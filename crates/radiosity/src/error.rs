@@ -124,6 +124,10 @@ impl Error {
                         .to_owned(),
                 }
             }
+            SolveError::Worthless { .. } => Error::Unsolvable {
+                problem: error.to_string(),
+                remedy: "lower the reflectances, or allow more with --max-sweeps".to_owned(),
+            },
             SolveError::NotFinite { patch } | SolveError::OutOfRange { patch } => {
                 Error::Unsolvable {
                     problem: format!("{error}; it belongs to `{}`", name_of(*patch)),

@@ -134,10 +134,12 @@ fn energy_line(energy: &Energy) -> Option<String> {
 }
 
 fn warning(report: &Convergence) -> String {
-    let advice = match (report.stalled, report.method) {
-        (true, _) => "numbers in single precision allow no less",
-        (false, Method::GaussSeidel(_)) => "allow more with --max-sweeps, or try --solver cg",
-        (false, Method::ConjugateGradients) => "allow more with --max-sweeps",
+    let advice = if report.stalled {
+        "numbers in single precision allow no less"
+    } else if report.is_falling() {
+        "allow more with --max-sweeps"
+    } else {
+        "more sweeps would not help"
     };
-    format!("warning: the tolerance was not reached; {advice}")
+    format!("warning: the residual asked for was not reached; {advice}")
 }

@@ -1,5 +1,6 @@
 //! How a solution was reached, and how far it may still be off.
 
+use crate::diagnosis::is_falling;
 use crate::{Energy, Method};
 use serde::{Deserialize, Serialize};
 
@@ -28,6 +29,14 @@ pub struct Convergence {
     pub relaxation: Option<f64>,
     /// The power balance of each light.
     pub energies: Vec<Energy>,
+}
+
+impl Convergence {
+    /// Whether the residual has become clearly less over the second half of the passes, so that more of
+    /// them would help.
+    pub fn is_falling(&self) -> bool {
+        is_falling(&self.residuals)
+    }
 }
 
 /// What a pass has come to.

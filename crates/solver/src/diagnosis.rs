@@ -1,6 +1,7 @@
 //! Why a system has no solution, and where.
 
 use crate::power_iteration::spectral_radius;
+use crate::problem::ratio;
 use crate::{Rgb, System};
 
 /// Why there is no solution.
@@ -16,6 +17,15 @@ pub enum SolveError {
         spectral_radius: f64,
         /// The patches whose row sum times reflectance is largest, the worst first.
         worst_patches: Vec<usize>,
+    },
+    /// Far more is left of the equations than what shines.
+    #[error(
+        "this is no solution: its residual is {residual:.1e} times the emission; light dies away too \
+         slowly, or not at all"
+    )]
+    Worthless {
+        /// The relative residual.
+        residual: f64,
     },
     /// A number in the input is NaN or infinite.
     #[error("patch {patch} has a form factor, emission or reflectance that is not finite")]
@@ -36,6 +46,11 @@ pub enum SolveError {
 
 /// Sweeps over which the residual must grow before divergence is suspected.
 const SUSPICIOUS_GROWTH: usize = 4;
+/// With a relative residual above this, radiosities are no solution. (On their way to one, conjugate
+/// gradients may exceed 1.)
+pub(crate) const WORTHLESS: f64 = 10.0;
+/// A spectral radius this near to 1 is 1, as far as single precision tells.
+const RADIUS_ERROR: f64 = 1e-6;
 /// How many of the worst patches an error names.
 const NAMED_PATCHES: usize = 8;
 
@@ -60,16 +75,17 @@ pub(crate) fn is_falling(residuals: &[f64]) -> bool {
     ends.is_some_and(|(middle, last)| *last < 0.9 * middle)
 }
 
+/// For systems that are not solved.
 pub(crate) fn check_spectral_radius(system: &System<'_>) -> Result<(), SolveError> {
     let spectral_radius = spectral_radius(system);
-    if spectral_radius < 1.0 {
+    if spectral_radius < 1.0 - RADIUS_ERROR {
         return Ok(());
     }
     let total = system.total_area();
     let sums = system.exchange.row_sums();
     let reflected = |i: usize| {
         let strongest = system.reflectance[i].into_iter().fold(0.0, f64::max);
-        strongest * sums[i] * total / system.visible_area(i)
+        ratio(strongest * sums[i] * total, system.visible_area(i))
     };
     let mut worst_patches: Vec<usize> = (0..system.size()).collect();
     worst_patches.sort_by(|&a, &b| reflected(b).total_cmp(&reflected(a)));

@@ -118,7 +118,7 @@ pub fn solve(
             diagnosis::check_spectral_radius(system)?;
         }
     }
-    if !converged && !stalled && !diagnosis::is_falling(&residuals) {
+    if !converged && (stalled || !diagnosis::is_falling(&residuals)) {
         diagnosis::check_spectral_radius(system)?;
     }
     let relaxation = iteration.relaxation();
@@ -126,6 +126,9 @@ pub fn solve(
     let residual = problem.relative(|k| problem.residual_at(k, &sums[k], &x[k]));
     let lights = problem.to_lights(&x);
     diagnosis::check_radiosities(&lights)?;
+    if !converged && residual > diagnosis::WORTHLESS {
+        return Err(SolveError::Worthless { residual });
+    }
     diagnosis::check_radiosities(&direct)?;
     Ok(Solution {
         report: Convergence {

@@ -1,6 +1,7 @@
 //! Systems without a solution.
 
 use super::*;
+use crate::power_iteration::spectral_radius;
 
 #[test]
 fn a_system_that_makes_light_names_its_worst_patches() {
@@ -24,21 +25,59 @@ fn a_system_that_makes_light_names_its_worst_patches() {
     }
 }
 
+/// rho = 1 in a closed room: light never goes away. Row sums in single precision lie within 1e-7 of 1, on
+/// either side.
 #[test]
-fn barely_diverging_systems_are_caught_at_the_limit_of_passes() {
-    // rho = 1 in a closed room: light never goes away.
-    let case = Case::uniform_enclosure(5, [1.0; 3], [1.0; 3]);
-    let error = solve(&case.system(), None, &Params::default(), &mut |_| ());
-    // f32 row sums lie within 1e-7 of 1, so either side of the threshold is honest.
-    match error {
-        Err(SolveError::Diverges {
-            spectral_radius, ..
-        }) => {
+fn rooms_that_absorb_nothing_have_no_solution() {
+    for (size, reflectance) in [(5, [1.0; 3]), (40, [1.0, 0.5, 0.01])] {
+        let case = Case::uniform_enclosure(size, [1.0; 3], reflectance);
+        for method in METHODS {
+            let error = solve(&case.system(), None, &with(method), &mut |_| ()).unwrap_err();
+            let SolveError::Diverges {
+                spectral_radius, ..
+            } = error
+            else {
+                panic!("expected divergence, got {error}");
+            };
             assert!((spectral_radius - 1.0).abs() < 1e-6);
         }
-        Ok(solution) => assert!(!solution.report.converged),
-        Err(other) => panic!("{other}"),
     }
+}
+
+/// Far from a solution after few passes, and much worse than the emission alone.
+#[test]
+fn what_is_worse_than_no_light_is_no_solution() {
+    let case = Case::uniform_enclosure(5, [1.0; 3], [0.5; 3]);
+    let start = vec![vec![[1e4; 3]; 5]];
+    let params = Params {
+        max_passes: 1,
+        ..with(Method::GaussSeidel(Relaxation::Factor(1.0)))
+    };
+    let error = solve(&case.system(), Some(&start), &params, &mut |_| ()).unwrap_err();
+    assert!(
+        matches!(error, SolveError::Worthless { residual } if residual > 1.0),
+        "{error}"
+    );
+}
+
+/// A covered patch has no area, exchanges nothing, and has its emission for radiosity.
+#[test]
+fn covered_patches_are_left_alone() {
+    let mut case = Case::uniform_enclosure(5, [1.0; 3], [0.5; 3]);
+    let mut values = case.exchange.values().to_vec();
+    values[..packed_len(3)][packed_len(2)..].fill(0.0);
+    values[packed_len(3) + 2] = 0.0;
+    values[packed_len(4) + 2] = 0.0;
+    case.exchange = SymmetricMatrix::new(5, values).unwrap();
+    case.areas[2] = 0.0;
+    for method in METHODS {
+        let solution = solve(&case.system(), None, &with(method), &mut |_| ()).unwrap();
+        assert!(solution.report.converged);
+        assert_eq!(solution.lights[0][2], [1.0; 3]);
+        let energy = solution.report.energies[0];
+        assert!(energy.emitted[0].is_finite() && energy.absorbed[0].is_finite());
+    }
+    assert!(spectral_radius(&case.system()) < 1.0);
 }
 
 /// Two plates that see each other alone: the eigenvalues come in pairs of either sign.
