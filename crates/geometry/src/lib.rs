@@ -41,7 +41,7 @@ mod walls;
 pub use bounds::Aabb;
 pub use bundle::{Bundle, Points};
 pub use camera::{Camera, CameraError};
-pub use check::ShapeError;
+pub use check::{ShapeError, has_area};
 pub use film::{Film, PixelFilter};
 pub use glam::{DVec2, DVec3};
 pub use locate::Location;

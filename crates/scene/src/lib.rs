@@ -15,6 +15,7 @@ mod mesh;
 mod obj;
 mod scene;
 mod settings;
+mod signature;
 mod source;
 mod surface;
 mod values;

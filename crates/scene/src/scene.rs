@@ -7,7 +7,7 @@ use crate::light::{Light, keep_used, lights};
 use crate::material::{Material, materials};
 use crate::settings::{FormFactorSettings, SolverSettings};
 use crate::source::{Complaint, SceneError, Source};
-use crate::surface::{Context, Surface};
+use crate::surface::{Context, Surface, Surfaces};
 use crate::vs3;
 use radiosity_geometry::{self as geometry, Camera, Divisions, SurfaceId};
 use std::path::Path;
@@ -39,7 +39,7 @@ pub struct Scene {
     pub solver: SolverSettings,
     /// Whether the file says that patches see nothing but fronts, so that rows should sum to 1.
     pub closed: bool,
-    /// What the file says beside, and means nothing here.
+    /// What its files say beside, and means nothing here, and what of them was left out.
     pub notes: Vec<String>,
 }
 
@@ -125,12 +125,16 @@ pub fn parse(path: &Path, text: &str) -> Result<Scene, SceneError> {
         folder: path.parent().unwrap_or(Path::new("")),
         materials: &materials,
     };
-    let (geometry, surfaces) = context.surfaces(&file.surfaces)?;
+    let Surfaces {
+        shapes,
+        surfaces,
+        notes,
+    } = context.surfaces(&file.surfaces)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     let lights = keep_used(lights, &mut materials, &surfaces);
     Ok(Scene {
         name: name.into_owned(),
-        geometry,
+        geometry: shapes,
         surfaces,
         camera: camera.transpose()?,
         views: views(&source, &file.views)?,
@@ -141,6 +145,6 @@ pub fn parse(path: &Path, text: &str) -> Result<Scene, SceneError> {
         materials,
         lights,
         closed: false,
-        notes: Vec::new(),
+        notes,
     })
 }

@@ -76,10 +76,15 @@ impl Source<'_> {
     /// An error at a range of bytes of the text.
     pub(crate) fn error(&self, span: Range<usize>, complaint: &Complaint) -> SceneError {
         let path = self.path.display().to_string();
+        // The lines of the span alone: the renderer goes through all that it is given.
+        let (before, after) = (&self.text[..span.start], &self.text[span.end..]);
+        let start = before.rfind('\n').map_or(0, |at| at + 1);
+        let end = span.end + after.find('\n').unwrap_or(after.len());
         let annotation = AnnotationKind::Primary
-            .span(span)
+            .span(span.start - start..span.end - start)
             .label(complaint.label.as_str());
-        let snippet = Snippet::source(self.text)
+        let snippet = Snippet::source(&self.text[start..end])
+            .line_start(1 + before.matches('\n').count())
             .path(path.as_str())
             .annotation(annotation);
         let mut group = Level::ERROR

@@ -1,6 +1,7 @@
 //! What scenes mean when they are right, and what is said when they are wrong.
 
 mod meshes;
+mod obj;
 
 use crate::{Automatic, Exposure, Gamma, Mode, Relaxation, Scene, SolverMethod, Tone, parse};
 use proptest::prelude::*;
