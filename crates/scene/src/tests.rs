@@ -184,6 +184,11 @@ fn mistakes_are_explained() {
         ("edge_b = [0, 1, 0]", "edge_b = [2, 0, 0]"),
         ("edge_b = [0, 1, 0]", "edge_b = [inf, 0, 0]"),
         ("edge_b = [0, 1, 0]", "edge_b = [0, 1]"),
+        ("edge_b = [0, 1, 0]", "edge_b = [0, 1, 0, 0.5]"),
+        ("position = [0, 0, 5]", "position = [0,5, 0,5, 5,0]"),
+        ("[[0, 0, 1], ", "[[0, 0, 1,5], "),
+        ("emission = 12", "emission = [1,5, 2,5, 3]"),
+        ("divisions = [3, 4]", "divisions = [3, 4, 5]"),
         ("[1, 0, 1], ", ""),
         (
             "parallelogram = ",
