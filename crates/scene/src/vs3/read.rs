@@ -75,8 +75,8 @@ pub(super) fn read(source: &Source<'_>) -> Result<File, SceneError> {
             // The last is how DOS ends a file.
             '*' | 'E' | '\u{1a}' => break,
             'M' | 'N' => {
-                let title = "mask and null surfaces are not supported";
-                let help = "write S or O, and cut the surface so that no mask is needed";
+                let title = "masks and null surfaces (M, N) are not read";
+                let help = "no other line says the same: this scene is one for View3D alone";
                 return Err(words.error(title, "this line", help));
             }
             _ => {
@@ -135,6 +135,12 @@ impl File {
                 let title = format!("the vertex's {name} is not finite");
                 return Err(words.error(&title, "this vertex", "give a number"));
             }
+        }
+        let next = words.words.next().map(str::parse::<f64>);
+        if matches!(next, Some(Ok(_))) {
+            let title = "this vertex has more than three coordinates";
+            let help = "decimals take a point, as in 2.5: commas are blanks here";
+            return Err(words.error(title, "this vertex", help));
         }
         if self.vertices.insert(number, position).is_some() {
             let title = format!("there are two vertices {number}");
