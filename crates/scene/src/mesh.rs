@@ -1,5 +1,6 @@
 //! `mesh = { … }` of `[[surfaces]]`.
 
+use crate::input;
 use crate::obj;
 use crate::signature::foreign;
 use crate::source::{Complaint, SceneError, Source};
@@ -22,18 +23,25 @@ pub(crate) struct MeshTable {
 impl Context<'_> {
     pub(crate) fn mesh(&self, table: &MeshTable) -> Result<Geometry, SceneError> {
         let path = self.folder.join(table.file.get_ref());
-        let bytes = std::fs::read(&path).map_err(|error| {
+        let complain = |title: String, help: &str| {
+            let complaint = Complaint::new(title, "this file").help(help);
+            Err(self.source.error(table.file.span(), &complaint))
+        };
+        if !self.mesh_files.include(&path, self.folder) {
+            let title = "the mesh is outside of the scene's folder".to_owned();
+            return complain(
+                title,
+                "copy it there, or read it all the same: --allow-outside",
+            );
+        }
+        let bytes = input::read(&path).map_err(|error| {
             let file = table.file.get_ref();
             let complaint = Complaint::new(format!("cannot read the mesh `{file}`: {error}"), "")
                 .suggest(file, self.obj_files_near(file).iter().map(String::as_str));
             self.source.error(table.file.span(), &complaint)
         })?;
-        let complain = |title: String, help: &str| {
-            let complaint = Complaint::new(title, "this file").help(help);
-            Err(self.source.error(table.file.span(), &complaint))
-        };
         if let Some(format) = foreign(&bytes) {
-            let title = format!("the mesh is {}, and only OBJ is read", format.name);
+            let title = format!("the mesh is {}, which is not read", format.name);
             return complain(title, format.help);
         }
         let text = text_of(&bytes);

@@ -1,5 +1,6 @@
 //! `[[surfaces]]`.
 
+use crate::input::MeshFiles;
 use crate::material::Material;
 use crate::mesh::MeshTable;
 use crate::obj;
@@ -60,6 +61,7 @@ pub(crate) struct Context<'a> {
     pub(crate) source: Source<'a>,
     /// Where the scene file is: mesh paths are relative to it.
     pub(crate) folder: &'a Path,
+    pub(crate) mesh_files: MeshFiles,
     pub(crate) materials: &'a [Material],
 }
 

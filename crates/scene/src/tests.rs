@@ -1,5 +1,6 @@
 //! What scenes mean when they are right, and what is said when they are wrong.
 
+mod files;
 mod meshes;
 mod obj;
 

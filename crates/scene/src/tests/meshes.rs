@@ -4,7 +4,7 @@ use crate::{Scene, parse};
 use proptest::prelude::*;
 use radiosity_geometry::{DVec3, Shape, SurfaceId};
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A scene of one mesh, in a folder of its own.
 pub(super) struct MeshScene(tempfile::TempDir);
@@ -16,13 +16,20 @@ impl MeshScene {
         MeshScene(folder)
     }
 
-    pub(super) fn parse(&self, file: &str, extra: &str) -> Result<Scene, String> {
-        let text = format!(
+    pub(super) fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    pub(super) fn text(file: &str, extra: &str) -> String {
+        format!(
             "[materials.a]\nreflectance = 0.1\n[materials.b]\nreflectance = 0.2\n\
              [[surfaces]]\nname = \"thing\"\nmaterial = \"a\"\nmesh = {{ file = \"{file}\"{extra}\n"
-        );
+        )
+    }
+
+    pub(super) fn parse(&self, file: &str, extra: &str) -> Result<Scene, String> {
         let folder = self.0.path().display().to_string();
-        parse(&self.0.path().join("scene.toml"), &text)
+        parse(&self.path("scene.toml"), &MeshScene::text(file, extra))
             .map_err(|error| error.to_string().replace(&folder, "FOLDER"))
     }
 }
@@ -47,7 +54,7 @@ fn groups_of_a_mesh_are_groups_of_the_scene() {
     };
     assert_eq!(groups(" }"), ["thing/base", "thing/side"]);
     assert_eq!(groups(" }\ngroup = \"all\""), ["all", "all"]);
-    let one = MeshScene::new(&TWO_GROUPS.replace("g side", "g base"));
+    let one = MeshScene::new(TWO_GROUPS.replace("g side", "g base"));
     let one = one.parse("model.obj", " }").unwrap();
     assert_eq!(
         one.group(SurfaceId(0), 1),
