@@ -11,9 +11,9 @@ mod outline;
 mod statements;
 mod triangles;
 
-use crate::source::{Complaint, SceneError, Source};
+use crate::source::{Complaint, SceneError, Source, shortened};
 use radiosity_geometry::DVec3;
-use statements::{Problem, position, statements, vertex_number, words};
+use statements::{Problem, name, position, statements, vertex_number, words};
 use std::rc::Rc;
 
 /// What a file says.
@@ -103,7 +103,6 @@ struct Reader {
 
 impl Reader {
     fn read(&mut self, line: usize, keyword: &str, rest: &str) -> Result<(), Problem> {
-        let name = (!rest.trim().is_empty()).then(|| rest.trim());
         match keyword {
             "v" => {
                 let position = position(rest).unwrap_or(DVec3::NAN);
@@ -111,8 +110,8 @@ impl Reader {
             }
             // The latter is the older spelling.
             "f" | "fo" => self.face(line, rest)?,
-            "g" | "o" => self.group = name.unwrap_or(NO_GROUP).into(),
-            "usemtl" => self.material = name.map(Rc::from),
+            "g" | "o" => self.group = name(rest)?.unwrap_or(NO_GROUP).into(),
+            "usemtl" => self.material = name(rest)?.map(Rc::from),
             // They say nothing of polygons.
             "" | "vt" | "vn" | "vp" | "s" | "l" | "p" | "mtllib" | "usemap" | "maplib" | "mg"
             | "lod" | "bevel" | "c_interp" | "d_interp" | "shadow_obj" | "trace_obj" => {}
@@ -152,7 +151,7 @@ impl Reader {
     fn unknown(&mut self, line: usize, keyword: &str) {
         let first = || Unknown {
             count: 0,
-            keyword: keyword.to_owned(),
+            keyword: shortened(keyword).into_owned(),
             line,
         };
         self.file.unknown.get_or_insert_with(first).count += 1;

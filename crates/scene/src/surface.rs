@@ -5,7 +5,7 @@ use crate::material::Material;
 use crate::mesh::MeshTable;
 use crate::obj;
 use crate::source::{Complaint, SceneError, Source};
-use crate::values::{Counts, Vector, divisions, require, vector};
+use crate::values::{Counts, Vector, check_name, divisions, vector};
 use radiosity_geometry::{self as geometry, DVec3, Divisions, Shape};
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -93,13 +93,7 @@ impl Context<'_> {
         let mut result = Surfaces::default();
         for table in tables {
             let name = &table.get_ref().name;
-            require(
-                &self.source,
-                name,
-                |n| !n.trim().is_empty(),
-                "a name",
-                "some text",
-            )?;
+            check_name(&self.source, name, "a name")?;
             if names.insert(name.get_ref().clone(), name.span()).is_some() {
                 let title = format!("there are two surfaces named `{}`", name.get_ref());
                 let complaint = Complaint::new(title, "choose another name");
@@ -161,8 +155,7 @@ impl Context<'_> {
             return Err(self.source.error(counts.span(), &complaint));
         }
         if let Some(group) = &table.group {
-            let has_text = |name: &String| !name.trim().is_empty();
-            require(&self.source, group, has_text, "a group", "some text")?;
+            check_name(&self.source, group, "a group")?;
         }
         let (group, groups_of_faces) = match &table.group {
             Some(group) => (group.get_ref(), Vec::new()),

@@ -2,6 +2,7 @@
 
 mod files;
 mod meshes;
+mod names;
 mod obj;
 
 use crate::{Automatic, Exposure, Gamma, Mode, Relaxation, Scene, SolverMethod, Tone, parse};
@@ -68,7 +69,7 @@ fn views_have_cameras_of_their_own() {
         (&["all"], "this stands for all views"),
         (&["camera"], "this stands for all views"),
         (&["a/b"], "files are named after it"),
-        (&[""], "files are named after it"),
+        (&[""], "must be some text"),
     ] {
         let error = with(names).expect_err(what);
         assert!(error.contains(what), "{error}");

@@ -139,6 +139,26 @@ pub(crate) fn require<T>(
     Err(source.error(value.span(), &complaint))
 }
 
+/// Bytes of a name: what can be printed in a line.
+pub(crate) const MOST_NAME: usize = 400;
+
+/// Refuses names that are empty or cannot be printed.
+pub(crate) fn check_name(
+    source: &Source<'_>,
+    name: &Spanned<String>,
+    what: &str,
+) -> Result<(), SceneError> {
+    require(
+        source,
+        name,
+        |name| !name.trim().is_empty(),
+        what,
+        "some text",
+    )?;
+    let range = format!("at most {MOST_NAME} bytes long");
+    require(source, name, |name| name.len() <= MOST_NAME, what, &range)
+}
+
 /// A vector of finite numbers.
 pub(crate) fn vector(source: &Source<'_>, value: &Vector, what: &str) -> Result<DVec3, SceneError> {
     let finite = |Triple(v): &Triple| v.iter().all(|x| x.is_finite());

@@ -1,5 +1,6 @@
 //! The statements of an OBJ file, and what is in them.
 
+use crate::values::MOST_NAME;
 use radiosity_geometry::DVec3;
 use std::borrow::Cow;
 
@@ -70,6 +71,17 @@ impl Problem {
 pub(super) fn words(text: &str) -> impl Iterator<Item = &str> {
     let end = text.find('#').unwrap_or(text.len());
     text[..end].split_whitespace()
+}
+
+/// The name of a group or material, which may have blanks and `#` in it, if there is one.
+pub(super) fn name(text: &str) -> Result<Option<&str>, Problem> {
+    let name = text.trim();
+    if name.len() > MOST_NAME {
+        let title = format!("this name has {} bytes", name.len());
+        let help = format!("give it one of at most {MOST_NAME}");
+        return Err(Problem { title, help });
+    }
+    Ok((!name.is_empty()).then_some(name))
 }
 
 /// Three coordinates; a weight or a colour may follow.

@@ -1,6 +1,7 @@
 //! The lines of a `.vs3` file.
 
-use crate::source::{Complaint, SceneError, Source};
+use crate::source::{Complaint, SceneError, Source, shortened};
+use crate::values::MOST_NAME;
 use arrayvec::ArrayVec;
 use radiosity_geometry::DVec3;
 use std::collections::HashMap;
@@ -119,6 +120,7 @@ impl File {
                 [name, value] if name.eq_ignore_ascii_case("encl") => self.closed = *value != "0",
                 _ => {
                     let control = control.join("=");
+                    let control = shortened(&control);
                     self.notes
                         .push(format!("`C {control}` in line {line} is not used"));
                 }
@@ -170,6 +172,11 @@ impl File {
             return Err(words.error(&title, "the second", "give it another number"));
         }
         let name = words.words.as_slice().join(" ");
+        if name.len() > MOST_NAME {
+            let title = format!("the name of surface {number} has {} bytes", name.len());
+            let help = format!("give it one of at most {MOST_NAME}");
+            return Err(words.error(&title, "this surface", &help));
+        }
         self.entries.push(Entry {
             line: words.line,
             number,
