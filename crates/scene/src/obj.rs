@@ -54,6 +54,9 @@ struct Unknown {
 /// The group of faces before the first one that has a name.
 const NO_GROUP: &str = "unnamed_object";
 
+/// What rounding may do to a polygon, in units of its size: files have six digits or more.
+const ROUNDING: f64 = 1e-5;
+
 impl Label {
     /// The names, the more specific one first.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {

@@ -1,5 +1,6 @@
 //! The corners that a polygon turns at, and those on its edges.
 
+use super::ROUNDING;
 use radiosity_geometry::{DVec3, has_area};
 
 /// A polygon without the corners that change nothing of its area.
@@ -12,7 +13,11 @@ pub(super) struct Outline {
 
 impl Outline {
     pub(super) fn of(corners: &[u32], positions: &[DVec3]) -> Outline {
-        let turns = turns(corners, positions);
+        let mut turns = turns_of(corners, positions, is_straight);
+        if turns.len() < 3 {
+            // It may be narrow.
+            turns = turns_of(corners, positions, |triangle| !has_area(triangle));
+        }
         let mut outline = Outline {
             corners: turns.iter().map(|&k| corners[k]).collect(),
             on_edges: Vec::new(),
@@ -44,13 +49,24 @@ impl Outline {
     }
 }
 
+/// Whether a way over three points goes on in its direction but for rounding, or comes back on
+/// itself.
+fn is_straight([a, b, c]: [DVec3; 3]) -> bool {
+    let (to, on) = (b - a, c - b);
+    let turn = to.cross(on).length();
+    let goes_on = to.dot(on) > 0.0 && turn <= ROUNDING * to.length() * on.length();
+    goes_on || !has_area([a, b, c])
+}
+
 /// The places in the list of those corners that neither repeat their neighbours nor lie on a line
 /// with them, once all others are gone.
-fn turns(corners: &[u32], positions: &[DVec3]) -> Vec<usize> {
-    let is_flat = |places: [usize; 3]| {
-        let triangle = places.map(|place| positions[corners[place] as usize]);
-        !has_area(triangle)
-    };
+fn turns_of(
+    corners: &[u32],
+    positions: &[DVec3],
+    is_line: impl Fn([DVec3; 3]) -> bool,
+) -> Vec<usize> {
+    let is_flat =
+        |places: [usize; 3]| is_line(places.map(|place| positions[corners[place] as usize]));
     let mut kept: Vec<usize> = Vec::with_capacity(corners.len());
     for next in 0..corners.len() {
         while let [.., a, b] = kept[..]
@@ -86,7 +102,8 @@ fn on_edge(
     let along = |corner: u32| edge.dot(at(corner) - at(from)) / edge.length_squared();
     let is_inside = |&corner: &u32| {
         let t = along(corner);
-        t > 0.0 && t < 1.0 && !has_area([at(from), at(corner), at(to)])
+        let off = edge.cross(at(corner) - at(from)).length();
+        t > 0.0 && t < 1.0 && off <= ROUNDING * edge.length_squared()
     };
     let mut inside: Vec<u32> = between.filter(is_inside).collect();
     inside.sort_by(|&a, &b| along(a).total_cmp(&along(b)));

@@ -1,10 +1,8 @@
 //! Polygons of any number of corners as triangles, by earcut.
 
+use super::ROUNDING;
 use super::outline::Outline;
 use radiosity_geometry::{DVec3, has_area};
-
-/// How much of its area the triangles of a polygon may miss or double by rounding.
-const ROUNDING: f64 = 1e-9;
 
 /// The triangles of a polygon, which may have reflex corners; `None` if it crosses itself. Corners
 /// on its edges are corners of triangles, too.

@@ -120,6 +120,24 @@ fn corners_that_turn_nothing_are_left_out() {
     }
 }
 
+/// In files of six digits corners lie beside their edges.
+#[test]
+fn rounding_makes_no_corners() {
+    let area_of = |points: &str, face: &str| {
+        let scene = read(PLATE.replace("f 1 2 3 4", &format!("{points}{face}"))).unwrap();
+        assert!((area(&scene).z - 6.0).abs() < 1e-4);
+        corner_counts(&scene)
+    };
+    let beside = "v 1 1e-6 0\nv 2 -1e-6 0\nv 3.000001 0.7 1e-6\n";
+    assert_eq!(area_of(beside, "f 1 5 6 2 7 3 4"), [4]);
+    // A slit of which the sides have changed places.
+    let slit = "v 1.500001 0 0\nv 1.5 1 0\nv 1.499999 0 0\n";
+    area_of(slit, "f 1 5 6 7 2 3 4");
+    // Neither narrow faces nor short edges are rounding.
+    let narrow = "v 0 0 0\nv 9 0 0\nv 9 1e-6 0\nv 0 1e-6 0\nv 4 2e-8 0\nf 1 2 3 4\nf 1 2 5\n";
+    assert_eq!(corner_counts(&read(narrow).unwrap()), [4, 3]);
+}
+
 #[test]
 fn faces_without_area_are_left_out_with_a_note() {
     let scene = assert_is_plate(format!(
