@@ -50,6 +50,16 @@ pub enum ShapeError {
         /// The face, counted from 0.
         face: usize,
     },
+    /// A quad of a mesh crosses itself: either way of cutting it gives two triangles of which one
+    /// faces back.
+    #[error(
+        "face {face} (counted from 0) crosses itself; order its corners around it, or use two \
+         triangles"
+    )]
+    FaceCrossesItself {
+        /// The face, counted from 0.
+        face: usize,
+    },
 }
 
 /// How far the corners of a planar quadrilateral may lie off their mean plane, relative to the
@@ -66,19 +76,23 @@ fn in_range(point: &DVec3) -> bool {
     point.abs().cmple(DVec3::splat(LARGEST)).all()
 }
 
-pub(crate) fn check_triangle([a, b, c]: [DVec3; 3]) -> Result<(), ShapeError> {
-    if ![a, b, c].iter().all(in_range) {
-        return Err(ShapeError::OutOfRange);
-    }
-    let (ab, ac) = (b - a, c - a);
-    let longest = ab.length().max(ac.length()).max((c - b).length());
-    let height = ab.cross(ac).length() / longest;
-    // The height is NaN where all corners are equal; no comparison holds for it.
-    if height > SLIVER * longest {
+pub(crate) fn check_triangle(corners: [DVec3; 3]) -> Result<(), ShapeError> {
+    if !corners.iter().all(in_range) {
+        Err(ShapeError::OutOfRange)
+    } else if has_area(corners) {
         Ok(())
     } else {
         Err(ShapeError::NoArea)
     }
+}
+
+/// Whether a triangle is more than a line: its height is more than 1e-9 of its longest edge.
+pub fn has_area([a, b, c]: [DVec3; 3]) -> bool {
+    let (ab, ac) = (b - a, c - a);
+    let longest = ab.length().max(ac.length()).max((c - b).length());
+    let height = ab.cross(ac).length() / longest;
+    // The height is NaN where all corners are equal; no comparison holds for it.
+    height > SLIVER * longest
 }
 
 pub(crate) fn check_quad(corners: &[DVec3; 4]) -> Result<(), ShapeError> {

@@ -43,7 +43,7 @@ mod walls;
 pub use bounds::Aabb;
 pub use bundle::{Bundle, Points};
 pub use camera::{Camera, CameraError};
-pub use check::ShapeError;
+pub use check::{ShapeError, has_area};
 pub use covers::{Covered, Covers};
 pub use film::{Film, PixelFilter};
 pub use glam::{DVec2, DVec3};

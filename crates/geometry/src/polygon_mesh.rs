@@ -30,7 +30,7 @@ impl PolygonMesh {
     /// The planar convex polygons of all faces, in input order, each with its face's index.
     ///
     /// A planar convex quad stays one polygon; any other quad becomes two triangles along the
-    /// diagonal that keeps both of them facing the same way.
+    /// diagonal that keeps both of them facing the same way. Where none does, it crosses itself.
     pub(crate) fn polygons(&self) -> Result<Vec<(u32, Polygon)>, ShapeError> {
         if self.faces.is_empty() {
             return Err(ShapeError::Empty);
@@ -45,7 +45,8 @@ impl PolygonMesh {
                     push(Polygon::quad([a, b, c, d]));
                 }
                 [a, b, c, d] => {
-                    for half in split_quad([a, b, c, d]) {
+                    let halves = split_quad([a, b, c, d]);
+                    for half in halves.ok_or(ShapeError::FaceCrossesItself { face })? {
                         push(checked_triangle(face, half)?);
                     }
                 }
@@ -85,15 +86,19 @@ fn checked_triangle(face: usize, corners: [DVec3; 3]) -> Result<Polygon, ShapeEr
     }
 }
 
-/// Cuts along the shorter diagonal, or along the one inside the quad where only one is.
-fn split_quad([a, b, c, d]: [DVec3; 4]) -> [[DVec3; 3]; 2] {
+/// Cuts along the shorter diagonal, or along the one inside the quad where only one is; `None` if
+/// neither is.
+fn split_quad([a, b, c, d]: [DVec3; 4]) -> Option<[[DVec3; 3]; 2]> {
     let normal = |p: DVec3, q: DVec3, r: DVec3| (q - p).cross(r - p);
-    let along_ac = normal(a, b, c).dot(normal(a, c, d)) > 0.0;
-    let along_bd = normal(a, b, d).dot(normal(b, c, d)) > 0.0;
+    let along_ac = normal(a, b, c).dot(normal(a, c, d));
+    let along_bd = normal(a, b, d).dot(normal(b, c, d));
+    if along_ac < 0.0 && along_bd < 0.0 {
+        return None;
+    }
     let ac_is_shorter = (c - a).length_squared() <= (d - b).length_squared();
-    if along_ac && (ac_is_shorter || !along_bd) {
-        [[a, b, c], [a, c, d]]
+    if along_ac > 0.0 && (ac_is_shorter || along_bd <= 0.0) {
+        Some([[a, b, c], [a, c, d]])
     } else {
-        [[a, b, d], [b, c, d]]
+        Some([[a, b, d], [b, c, d]])
     }
 }

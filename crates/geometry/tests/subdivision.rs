@@ -241,6 +241,14 @@ fn bad_shapes_are_explained() {
             corners: 2
         }
     );
+    let bow_tie = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
+    assert_eq!(
+        error(mesh(
+            bow_tie.map(DVec3::from).to_vec(),
+            vec![vec![0, 1, 2, 3]]
+        )),
+        ShapeError::FaceCrossesItself { face: 0 }
+    );
     assert_eq!(
         error(mesh(xy, vec![vec![0, 1, 2], vec![0, 1, 3]])),
         ShapeError::FaceWithoutArea { face: 1 }

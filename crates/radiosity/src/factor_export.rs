@@ -4,10 +4,10 @@
 //! that arrives at `j`. Rows are patches in input order, or surfaces, or groups of them.
 
 use crate::error::Error;
-use crate::export::input_order;
+use crate::export::{faces_in_input_order, input_order};
 use crate::resources::check_parts;
 use radiosity_form_factors::{FormFactors, LumpedFactors, RowFacts};
-use radiosity_geometry::{Face, Mesh, Patch};
+use radiosity_geometry::{Face, Mesh};
 use radiosity_scene::Scene;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -20,7 +20,7 @@ pub enum By {
     Patch,
     /// Surfaces, in scene order.
     Surface,
-    /// Groups of surfaces, and of faces of meshes, in the order of their first patches.
+    /// Groups of surfaces, and of faces of meshes, in the order in which the files name them first.
     Group,
 }
 
@@ -69,15 +69,17 @@ impl<'a> FactorTable<'a> {
         };
         let mut names: Vec<&str> = Vec::new();
         let mut part_of_name = BTreeMap::new();
+        let mut part_of = vec![0; mesh.patches.len()];
         // Surfaces without patches are no part of the matrix.
-        let part = |patch: &Patch| {
-            let name = name_of(scene, &mesh.faces[patch.face.index()]);
-            *part_of_name.entry(name).or_insert_with(|| {
+        let faces = faces_in_input_order(mesh).into_iter();
+        for face in faces.filter(|face| !face.is_bare()) {
+            let name = name_of(scene, face);
+            let part = *part_of_name.entry(name).or_insert_with(|| {
                 names.push(name);
                 names.len() - 1
-            })
-        };
-        let part_of: Vec<usize> = mesh.patches.iter().map(part).collect();
+            });
+            part_of[face.patches()].fill(part);
+        }
         check_parts(names.len())?;
         let lumped = form_factors.lumped(&part_of, names.len());
         let row = |(part, name)| TableRow {

@@ -188,6 +188,50 @@ fn groups_of_a_mesh_file_are_parts() {
     assert!((factor("cube/floor", "cube/walls") - (1.0 - opposite)).abs() < 2e-6);
 }
 
+/// Plates above a floor, far from each other, in no order of their places.
+#[test]
+fn rows_are_in_the_order_of_the_file() {
+    let place = Place::new();
+    let mut obj = String::new();
+    let groups = [
+        ("west", 0),
+        ("far east", 90),
+        ("middle", 40),
+        ("west", 3),
+        ("east", 60),
+    ];
+    for (group, x) in groups {
+        let far = x + 1;
+        let corners = format!("v {x} 0 1\nv {x} 1 1\nv {far} 1 1\nv {far} 0 1\n");
+        obj += &format!("{corners}g {group}\nf -4 -3 -2 -1\n");
+    }
+    place.write("plates.obj", &obj);
+    let scene = "[materials.white]\nreflectance = 0.5\n\
+        [[surfaces]]\nname = \"plates\"\nmaterial = \"white\"\nmesh = { file = \"plates.obj\" }\n\
+        [[surfaces]]\nname = \"floor\"\nmaterial = \"white\"\ndivisions = 1\n\
+        parallelogram = { corner = [0, 0, 0], edge_a = [99, 0, 0], edge_b = [0, 1, 0] }\n";
+    place.write("plates.toml", scene);
+    let names = |by: &str| {
+        place.succeed(&format!(
+            "form-factors plates.toml --cache c --export f.csv --by {by}"
+        ));
+        let mut names: Vec<String> = read_table(&place, "f.csv")
+            .into_iter()
+            .map(|line| line["from"].clone())
+            .collect();
+        names.dedup();
+        let rows = read_table(&place, "f.rows.csv");
+        assert!(names.iter().eq(rows.iter().map(|row| &row["name"])));
+        names
+    };
+    let groups = ["west", "far east", "middle", "east"].map(|group| format!("plates/{group}"));
+    assert_eq!(
+        names("group"),
+        [&groups[..], &["floor".to_owned()]].concat()
+    );
+    assert_eq!(names("surface"), ["plates", "floor"]);
+}
+
 #[test]
 fn what_is_left_out_is_told() {
     let place = Place::new();

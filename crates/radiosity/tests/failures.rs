@@ -157,3 +157,40 @@ fn stages_before_a_failure_are_reported() {
         "{stdout}"
     );
 }
+
+#[test]
+fn meshes_elsewhere_are_read_on_request() {
+    let place = Place::new();
+    fs::create_dir(place.path("in")).unwrap();
+    place.write("in/room.toml", &SCENE.replace("block.obj", "../block.obj"));
+    place.succeed("form-factors room.toml --cache c");
+    let file = fs::read_dir(place.path("c"))
+        .unwrap()
+        .next()
+        .unwrap()
+        .unwrap();
+    let file = file.file_name().into_string().unwrap();
+    for command in [
+        "check in/room.toml",
+        "solve in/room.toml --no-cache",
+        "reference in/room.toml --cells --spp 2",
+        &format!("inspect c/{file} --scene in/room.toml"),
+    ] {
+        let (code, message) = place.fail(command);
+        assert_eq!(code, 3, "{message}");
+        assert!(message.contains("--allow-outside"), "{message}");
+        place.succeed(&format!("{command} --allow-outside"));
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn paths_of_scenes_need_not_be_text() {
+    use std::os::unix::ffi::OsStrExt;
+    let place = Place::new();
+    let name = std::ffi::OsStr::from_bytes(b"caf\xe9.toml");
+    fs::copy(place.path("room.toml"), place.0.path().join(name)).unwrap();
+    place.command("check").arg(name).assert().success();
+    let reference = "reference --cells --spp 2";
+    place.command(reference).arg(name).assert().success();
+}

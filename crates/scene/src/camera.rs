@@ -1,7 +1,7 @@
 //! `[camera]` and `[[views]]`.
 
 use crate::source::{Complaint, SceneError, Source};
-use crate::values::{Vector, vector};
+use crate::values::{Vector, check_name, vector};
 use radiosity_geometry::{Camera, CameraError, DVec3};
 use serde::Deserialize;
 use std::ops::Range;
@@ -38,9 +38,10 @@ pub(crate) struct ViewTable {
 pub(crate) fn views(source: &Source<'_>, tables: &[ViewTable]) -> Result<Vec<View>, SceneError> {
     let mut views: Vec<View> = Vec::new();
     for table in tables {
+        check_name(source, &table.name, "the name of a view")?;
         let name = table.name.get_ref();
         let is_plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
-        let label = if name.is_empty() || !name.chars().all(is_plain) {
+        let label = if !name.chars().all(is_plain) {
             "use letters, digits, `-` and `_`: files are named after it"
         } else if name == ALL_VIEWS || name == FIRST_VIEW {
             "this stands for all views, or for [camera]: give it another name"

@@ -25,7 +25,7 @@ pub(crate) struct SceneFile {
     pub(crate) form_factors: FormFactorTable,
     #[serde(default)]
     pub(crate) solver: SolverTable,
-    pub(crate) materials: BTreeMap<String, MaterialTable>,
+    pub(crate) materials: BTreeMap<Spanned<String>, MaterialTable>,
     #[serde(default)]
     pub(crate) lights: BTreeMap<Spanned<String>, LightTable>,
     pub(crate) surfaces: Vec<Spanned<SurfaceTable>>,

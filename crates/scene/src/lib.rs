@@ -9,12 +9,14 @@
 mod camera;
 mod file;
 mod image;
+mod input;
 mod light;
 mod material;
 mod mesh;
 mod obj;
 mod scene;
 mod settings;
+mod signature;
 mod source;
 mod surface;
 mod values;
@@ -25,9 +27,10 @@ mod tests;
 
 pub use camera::{ALL_VIEWS, FIRST_VIEW, View};
 pub use image::{Exposure, Gamma, ImageSettings, Standard, Tone};
+pub use input::MeshFiles;
 pub use light::{Light, MOST_DIMMING};
 pub use material::Material;
-pub use scene::{Scene, load, parse};
+pub use scene::{Scene, load, load_with, parse};
 pub use settings::{Automatic, FormFactorSettings, Mode, Relaxation, SolverMethod, SolverSettings};
 pub use source::{SceneError, suggestion};
 pub use surface::Surface;

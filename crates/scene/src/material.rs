@@ -1,7 +1,7 @@
 //! `[materials.NAME]`.
 
 use crate::source::{Complaint, SceneError, Source};
-use crate::values::{Color, require};
+use crate::values::{Color, check_name, require};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
@@ -34,10 +34,12 @@ pub(crate) struct MaterialTable {
 /// The materials, and the names of the lights that they belong to.
 pub(crate) fn materials(
     source: &Source<'_>,
-    tables: BTreeMap<String, MaterialTable>,
+    tables: BTreeMap<Spanned<String>, MaterialTable>,
 ) -> Result<(Vec<Material>, Vec<String>), SceneError> {
     let mut lights = Vec::new();
-    let mut check = |(name, table): (String, MaterialTable)| {
+    let mut check = |(name, table): (Spanned<String>, MaterialTable)| {
+        check_name(source, &name, "the name of a material")?;
+        let name = name.into_inner();
         let share = |c: &Color| c.0.iter().all(|x| (0.0..=1.0).contains(x));
         let what = format!("the reflectance of `{name}`");
         require(source, &table.reflectance, share, &what, "in [0, 1]")?;
@@ -82,12 +84,8 @@ fn light_name(
         let title = format!("`{material}` belongs to a light but does not emit");
         return complain(title, "remove this, or add an `emission`");
     }
-    let name = named.get_ref();
-    if name.trim().is_empty() {
-        let title = format!("the light of `{material}` has an empty name");
-        return complain(title, "give it a name");
-    }
-    Ok(Some(name.clone()))
+    check_name(source, named, &format!("the light of `{material}`"))?;
+    Ok(Some(named.get_ref().clone()))
 }
 
 /// The number of a name, which is added if it is new.

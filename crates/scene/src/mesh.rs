@@ -1,11 +1,14 @@
 //! `mesh = { … }` of `[[surfaces]]`.
 
+use crate::input;
 use crate::obj;
+use crate::signature::foreign;
 use crate::source::{Complaint, SceneError, Source};
 use crate::surface::{Context, Geometry};
 use crate::values::{Vector, require, vector};
-use radiosity_geometry::{DVec3, PolygonMesh, Shape, ShapeError};
+use radiosity_geometry::DVec3;
 use serde::Deserialize;
+use std::borrow::Cow;
 use std::path::Path;
 use toml::Spanned;
 
@@ -20,35 +23,52 @@ pub(crate) struct MeshTable {
 impl Context<'_> {
     pub(crate) fn mesh(&self, table: &MeshTable) -> Result<Geometry, SceneError> {
         let path = self.folder.join(table.file.get_ref());
-        let bytes = std::fs::read(&path).map_err(|error| {
+        let complain = |title: String, help: &str| {
+            let complaint = Complaint::new(title, "this file").help(help);
+            Err(self.source.error(table.file.span(), &complaint))
+        };
+        if !self.mesh_files.include(&path, self.folder) {
+            let title = "the mesh is outside of the scene's folder".to_owned();
+            return complain(
+                title,
+                "copy it there, or read it all the same: --allow-outside",
+            );
+        }
+        let bytes = input::read(&path).map_err(|error| {
             let file = table.file.get_ref();
             let complaint = Complaint::new(format!("cannot read the mesh `{file}`: {error}"), "")
                 .suggest(file, self.obj_files_near(file).iter().map(String::as_str));
             self.source.error(table.file.span(), &complaint)
         })?;
-        // Comments and names may be in any encoding.
-        let text = String::from_utf8_lossy(&bytes);
+        if let Some(format) = foreign(&bytes) {
+            let title = format!("the mesh is {}, which is not read", format.name);
+            return complain(title, format.help);
+        }
+        let text = text_of(&bytes);
         let source = Source {
             path: &path,
             text: &text,
         };
-        let obj::ObjMesh { mut mesh, labels } = obj::parse(&source)?;
-        self.transform(table, &mut mesh)?;
-        let shape = Shape::Mesh(mesh);
-        if let Err(ShapeError::FaceWithoutArea { face }) = shape.polygons() {
-            let title = "this face has no area";
-            let complaint = Complaint::new(title, "its corners coincide or lie on a line")
-                .help("remove it from the mesh");
-            return Err(source.error_in_line(labels[face].line(&text), &complaint));
+        let mut file = obj::parse(&source)?;
+        self.transform(table, &mut file.positions)?;
+        let unknown = file.note();
+        let mesh = file.cut(&source)?;
+        let notes: Vec<String> = mesh.note().into_iter().chain(unknown).collect();
+        if mesh.labels.is_empty() {
+            let notes: String = notes.iter().map(|note| format!("; {note}")).collect();
+            let help = "faces are lines of numbers of vertices, like: f 1 2 3";
+            return complain(format!("the mesh has no faces{notes}"), help);
         }
+        let file = table.file.get_ref();
         Ok(Geometry {
-            shape,
+            shape: mesh.shape,
             span: table.file.span(),
-            labels,
+            labels: mesh.labels,
+            notes: notes.iter().map(|note| format!("{file}: {note}")).collect(),
         })
     }
 
-    fn transform(&self, table: &MeshTable, mesh: &mut PolygonMesh) -> Result<(), SceneError> {
+    fn transform(&self, table: &MeshTable, positions: &mut [DVec3]) -> Result<(), SceneError> {
         let mut scale = 1.0;
         if let Some(entry) = &table.scale {
             let positive = |&x: &f64| x > 0.0 && x.is_finite();
@@ -65,7 +85,7 @@ impl Context<'_> {
             Some(offset) => vector(&self.source, offset, "`translate`")?,
             None => DVec3::ZERO,
         };
-        for position in &mut mesh.positions {
+        for position in positions {
             *position = scale * *position + offset;
         }
         Ok(())
@@ -84,5 +104,16 @@ impl Context<'_> {
             .collect();
         names.sort();
         names
+    }
+}
+
+/// The text of a file: comments and names may be in any encoding, and old programs end lines by a
+/// carriage return alone.
+fn text_of(bytes: &[u8]) -> Cow<'_, str> {
+    let text = String::from_utf8_lossy(bytes);
+    let has_bare_return = text.split('\r').skip(1).any(|rest| !rest.starts_with('\n'));
+    match has_bare_return {
+        true => Cow::Owned(text.replace("\r\n", "\n").replace('\r', "\n")),
+        false => text,
     }
 }

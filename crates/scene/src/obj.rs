@@ -1,19 +1,37 @@
-//! Wavefront OBJ meshes, read by tobj; faces with more than four corners are triangulated by
-//! earcut.
+//! Wavefront OBJ files: vertices, and polygons with the groups and materials that they belong to.
+//!
+//! Nothing else of a file counts: texture coordinates, normals, colours, weights and smoothing
+//! groups are not looked at, so that none of them is refused. Lines and points are no faces. A
+//! vertex matters only where a face has it as a corner. Material libraries are not opened: what a
+//! material is, the scene file says. (Wavefront Technologies, "Advanced Visualizer Manual",
+//! appendix B1, "Object Files".)
 
-use crate::source::{Complaint, SceneError, Source};
-use radiosity_geometry::{DVec3, PolygonMesh};
-use std::cell::Cell;
-use std::collections::HashMap;
-use std::io::{BufRead, Read};
+mod cut;
+mod outline;
+mod statements;
+mod triangles;
+
+use crate::source::{Complaint, SceneError, Source, shortened};
+use radiosity_geometry::DVec3;
+use statements::{Problem, name, position, statements, vertex_number, words};
 use std::rc::Rc;
-use tobj::LoadError;
 
-/// A mesh and where its faces belong.
-pub(crate) struct ObjMesh {
-    pub(crate) mesh: PolygonMesh,
-    /// One per face of `mesh`.
-    pub(crate) labels: Vec<Label>,
+/// What a file says.
+#[derive(Default)]
+pub(crate) struct ObjFile {
+    /// Not finite where a vertex cannot be read.
+    pub(crate) positions: Vec<DVec3>,
+    polygons: Vec<Polygon>,
+    unknown: Option<Unknown>,
+}
+
+/// A face of any number of corners.
+struct Polygon {
+    /// Indices into the positions.
+    corners: Vec<u32>,
+    label: Label,
+    /// Counted from 1.
+    line: usize,
 }
 
 /// Where a face comes from in its file.
@@ -25,242 +43,152 @@ pub(crate) struct Label {
     pub(crate) polygon: usize,
 }
 
+/// Statements that are not known.
+struct Unknown {
+    count: usize,
+    /// The first one, and its line, counted from 1.
+    keyword: String,
+    line: usize,
+}
+
+/// The group of faces before the first one that has a name.
+const NO_GROUP: &str = "unnamed_object";
+
+/// What rounding may do to a polygon, in units of its size: files have six digits or more.
+const ROUNDING: f64 = 1e-5;
+
 impl Label {
     /// The names, the more specific one first.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
         self.material.as_deref().into_iter().chain([&*self.group])
     }
+}
 
-    /// The line of the file where the face begins, counted from 1.
-    pub(crate) fn line(&self, text: &str) -> usize {
-        let is_polygon = |line: &str| {
-            let mut words = line.split_whitespace();
-            words.next() == Some("f") && words.count() >= 3
+impl ObjFile {
+    /// Says what was not read, if it may have been meant to be seen.
+    pub(crate) fn note(&self) -> Option<String> {
+        let Unknown {
+            count,
+            keyword,
+            line,
+        } = self.unknown.as_ref()?;
+        Some(match count {
+            1 => format!("`{keyword}` in line {line} is not known and left out"),
+            _ => format!(
+                "{count} statements are not known and left out, first `{keyword}` in line {line}"
+            ),
+        })
+    }
+}
+
+/// Reads the text of a file.
+pub(crate) fn parse(source: &Source<'_>) -> Result<ObjFile, SceneError> {
+    let mut reader = Reader {
+        file: ObjFile::default(),
+        group: NO_GROUP.into(),
+        material: None,
+    };
+    for statement in statements(source.text) {
+        let (keyword, rest) = statement.parts();
+        let read = reader.read(statement.line, keyword, rest);
+        read.map_err(|problem| source.problem(statement.line, &problem))?;
+    }
+    reader.file.check_corners(source)?;
+    Ok(reader.file)
+}
+
+struct Reader {
+    file: ObjFile,
+    /// Of the next faces.
+    group: Rc<str>,
+    material: Option<Rc<str>>,
+}
+
+impl Reader {
+    fn read(&mut self, line: usize, keyword: &str, rest: &str) -> Result<(), Problem> {
+        match keyword {
+            "v" => {
+                let position = position(rest).unwrap_or(DVec3::NAN);
+                self.file.positions.push(position);
+            }
+            // The latter is the older spelling.
+            "f" | "fo" => self.face(line, rest)?,
+            "g" | "o" => self.group = name(rest)?.unwrap_or(NO_GROUP).into(),
+            "usemtl" => self.material = name(rest)?.map(Rc::from),
+            // They say nothing of polygons.
+            "" | "vt" | "vn" | "vp" | "s" | "l" | "p" | "mtllib" | "usemap" | "maplib" | "mg"
+            | "lod" | "bevel" | "c_interp" | "d_interp" | "shadow_obj" | "trace_obj" => {}
+            _ if keyword.starts_with('#') => {}
+            _ => self.unknown(line, keyword),
+        }
+        Ok(())
+    }
+
+    fn face(&mut self, line: usize, rest: &str) -> Result<(), Problem> {
+        let corners: Result<Vec<u32>, Problem> =
+            words(rest).map(|word| self.corner(word)).collect();
+        self.file.polygons.push(Polygon {
+            corners: corners?,
+            label: Label {
+                group: Rc::clone(&self.group),
+                material: self.material.clone(),
+                polygon: self.file.polygons.len(),
+            },
+            line,
+        });
+        Ok(())
+    }
+
+    /// The index of a vertex, which may stand further down in the file.
+    fn corner(&self, word: &str) -> Result<u32, Problem> {
+        let number = vertex_number(word)?;
+        let before = self.file.positions.len();
+        let index = match number {
+            1.. => Some(number - 1),
+            _ => (before as i64).checked_add(number),
         };
-        let mut polygons = text
-            .lines()
-            .enumerate()
-            .filter(|(_, line)| is_polygon(line));
-        polygons.nth(self.polygon).map_or(1, |(index, _)| index + 1)
+        let index = index.and_then(|index| u32::try_from(index).ok());
+        index.ok_or_else(|| no_such_vertex(number, before))
     }
-}
 
-/// Reads an OBJ file. Material libraries are not opened: what a material is, the scene file
-/// says; its name in the mesh is all that counts here.
-pub(crate) fn parse(source: &Source<'_>) -> Result<ObjMesh, SceneError> {
-    let text = plain_lines(source.text);
-    let source = &Source {
-        path: source.path,
-        text: &text,
-    };
-    if let Some(line) = first_face_without_corners(&text) {
-        let complaint = Complaint::new("this face has fewer than three corners", "in this line")
-            .help("remove it from the mesh");
-        return Err(source.error_in_line(line, &complaint));
-    }
-    let materials = material_names(source.text);
-    let options = tobj::LoadOptions {
-        ignore_points: true,
-        ignore_lines: true,
-        ..Default::default()
-    };
-    // tobj forgets material names that no library defines: one is put in front of the file. The
-    // first library asked for is that one, whatever others are called.
-    let names = Cell::new(Some(materials_named(&materials)));
-    let line = Cell::new(0);
-    let mut reader = CountedLines {
-        lines: source.text.split_inclusive('\n'),
-        current: b"mtllib names\n",
-        line: &line,
-    };
-    let loaded = tobj::load_obj_buf(&mut reader, &options, |_| {
-        Ok(names.take().unwrap_or_default())
-    });
-    let (models, _) = loaded.map_err(|error| explain(source, &error, line.get()))?;
-    Ok(assemble(&models, &materials))
-}
-
-/// The same lines without tabs, indentation and continuations (`\` at the end), which tobj takes
-/// for parts of names or does not know; empty lines take the place of joined ones.
-fn plain_lines(text: &str) -> String {
-    let mut plain = String::with_capacity(text.len());
-    let mut joined = 0;
-    for line in text.lines().map(str::trim_start) {
-        match line.trim_end().strip_suffix('\\') {
-            Some(start) if !line.starts_with('#') => {
-                plain.push_str(start);
-                plain.push(' ');
-                joined += 1;
-            }
-            _ => {
-                plain.push_str(line);
-                plain.extend(std::iter::repeat_n('\n', 1 + joined));
-                joined = 0;
-            }
-        }
-    }
-    plain.replace('\t', " ")
-}
-
-/// The line, counted from 1, of the first face that is no polygon.
-fn first_face_without_corners(text: &str) -> Option<usize> {
-    let is_bad = |line: &str| {
-        let mut words = line.split_whitespace();
-        words.next() == Some("f") && words.count() < 3
-    };
-    text.lines().position(is_bad).map(|index| index + 1)
-}
-
-/// The materials that a file uses, in order of appearance.
-fn material_names(text: &str) -> Vec<Rc<str>> {
-    let mut names: Vec<Rc<str>> = Vec::new();
-    for line in text.lines() {
-        if let Some(name) = line.strip_prefix("usemtl ")
-            && !names.iter().any(|known| **known == *name.trim())
-        {
-            names.push(name.trim().into());
-        }
-    }
-    names
-}
-
-fn materials_named(names: &[Rc<str>]) -> (Vec<tobj::Material>, MaterialMap) {
-    let material = |name: &Rc<str>| tobj::Material {
-        name: name.to_string(),
-        ..Default::default()
-    };
-    let map = names
-        .iter()
-        .enumerate()
-        .map(|(k, name)| (name.to_string(), k));
-    (names.iter().map(material).collect(), map.collect())
-}
-
-type MaterialMap = HashMap<String, usize>;
-
-fn assemble(models: &[tobj::Model], materials: &[Rc<str>]) -> ObjMesh {
-    let mut result = ObjMesh {
-        mesh: PolygonMesh::default(),
-        labels: Vec::new(),
-    };
-    let mut polygon = 0;
-    for model in models {
-        let mesh = &model.mesh;
-        let names = Label {
-            polygon,
-            group: model.name.as_str().into(),
-            material: mesh.material_id.map(|id| Rc::clone(&materials[id])),
+    fn unknown(&mut self, line: usize, keyword: &str) {
+        let first = || Unknown {
+            count: 0,
+            keyword: shortened(keyword).into_owned(),
+            line,
         };
-        let first = result.mesh.positions.len() as u32;
-        let positions = mesh.positions.chunks_exact(3).map(DVec3::from_slice);
-        result.mesh.positions.extend(positions);
-        // tobj leaves the arities out where all faces are triangles.
-        let triangles = vec![
-            3;
-            if mesh.face_arities.is_empty() {
-                mesh.indices.len() / 3
-            } else {
-                0
+        self.file.unknown.get_or_insert_with(first).count += 1;
+    }
+}
+
+impl ObjFile {
+    /// Refuses faces that name vertices beyond the last one.
+    fn check_corners(&self, source: &Source<'_>) -> Result<(), SceneError> {
+        let count = self.positions.len();
+        for polygon in &self.polygons {
+            let beyond = |&&corner: &&u32| corner as usize >= count;
+            if let Some(&corner) = polygon.corners.iter().find(beyond) {
+                let problem = no_such_vertex(i64::from(corner) + 1, count);
+                return Err(source.problem(polygon.line, &problem));
             }
-        ];
-        let mut rest = mesh.indices.as_slice();
-        for &arity in mesh.face_arities.iter().chain(&triangles) {
-            let (corners, tail) = rest.split_at(arity as usize);
-            rest = tail;
-            let corners: Vec<u32> = corners.iter().map(|index| first + index).collect();
-            for face in up_to_four_corners(corners, &result.mesh.positions) {
-                result.mesh.faces.push(face);
-                result.labels.push(Label {
-                    polygon,
-                    ..names.clone()
-                });
-            }
-            polygon += 1;
         }
-    }
-    result
-}
-
-fn up_to_four_corners(corners: Vec<u32>, positions: &[DVec3]) -> Vec<Vec<u32>> {
-    if corners.len() <= 4 {
-        return vec![corners];
-    }
-    let points: Vec<[f64; 3]> = corners
-        .iter()
-        .map(|&index| positions[index as usize].to_array())
-        .collect();
-    let mut flat = Vec::new();
-    let mut triangles: Vec<usize> = Vec::new();
-    if earcut::utils3d::project3d_to_2d(&points, points.len(), &mut flat) {
-        earcut::Earcut::new().earcut(flat, &[], &mut triangles);
-    }
-    if triangles.is_empty() {
-        // No area: the checks refuse a piece of it.
-        return vec![corners[..3].to_vec()];
-    }
-    let face = |t: &[usize]| t.iter().map(|&k| corners[k]).collect();
-    triangles.chunks_exact(3).map(face).collect()
-}
-
-fn explain(source: &Source<'_>, error: &LoadError, line: usize) -> SceneError {
-    let complaint = |label: &str| Complaint::new(format!("cannot read this mesh: {error}"), label);
-    match error {
-        LoadError::FaceVertexOutOfBounds => {
-            let line = first_face_out_of_bounds(source.text).unwrap_or(line);
-            source.error_in_line(line, &complaint("names a vertex that does not exist"))
-        }
-        _ => source.error_in_line(line, &complaint("in this line")),
+        Ok(())
     }
 }
 
-/// The line, counted from 1, of the first face that names a vertex beyond the last one.
-fn first_face_out_of_bounds(text: &str) -> Option<usize> {
-    let keyword = |line: &str| line.split_whitespace().next().map(str::to_owned);
-    let vertices = text
-        .lines()
-        .filter(|l| keyword(l).as_deref() == Some("v"))
-        .count();
-    let exceeds = |corner: &str| {
-        let index = corner
-            .split('/')
-            .next()
-            .and_then(|index| index.parse::<usize>().ok());
-        index.is_some_and(|index| index > vertices)
-    };
-    let is_bad = |line: &str| {
-        keyword(line).as_deref() == Some("f") && line.split_whitespace().skip(1).any(exceeds)
-    };
-    text.lines().position(is_bad).map(|index| index + 1)
-}
-
-/// Hands out a text line by line and counts: tobj's errors do not say where they are.
-struct CountedLines<'a> {
-    lines: std::str::SplitInclusive<'a, char>,
-    current: &'a [u8],
-    line: &'a Cell<usize>,
-}
-
-impl BufRead for CountedLines<'_> {
-    fn fill_buf(&mut self) -> std::io::Result<&[u8]> {
-        if self.current.is_empty()
-            && let Some(next) = self.lines.next()
-        {
-            self.current = next.as_bytes();
-            self.line.set(self.line.get() + 1);
-        }
-        Ok(self.current)
-    }
-
-    fn consume(&mut self, amount: usize) {
-        self.current = &self.current[amount..];
+fn no_such_vertex(number: i64, count: usize) -> Problem {
+    Problem {
+        title: format!("there is no vertex {number}"),
+        help: match number {
+            1.. => format!("the file has {count} vertices"),
+            _ => format!("{count} vertices come before this line"),
+        },
     }
 }
 
-impl Read for CountedLines<'_> {
-    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
-        let mut available = self.fill_buf()?;
-        let count = available.read(buffer)?;
-        self.consume(count);
-        Ok(count)
+impl Source<'_> {
+    fn problem(&self, line: usize, problem: &Problem) -> SceneError {
+        let complaint = Complaint::new(&problem.title, "in this line").help(&problem.help);
+        self.error_in_line(line, &complaint)
     }
 }

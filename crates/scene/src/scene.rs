@@ -3,13 +3,16 @@
 use crate::camera::{View, camera, views};
 use crate::file::SceneFile;
 use crate::image::ImageSettings;
+use crate::input::{self, MeshFiles};
 use crate::light::{Light, keep_used, lights};
 use crate::material::{Material, materials};
 use crate::settings::{FormFactorSettings, SolverSettings};
+use crate::signature::foreign;
 use crate::source::{Complaint, SceneError, Source};
-use crate::surface::{Context, Surface};
+use crate::surface::{Context, Surface, Surfaces};
 use crate::vs3;
 use radiosity_geometry::{self as geometry, Camera, Divisions, SurfaceId};
+use std::borrow::Cow;
 use std::path::Path;
 
 /// Everything that a scene file says.
@@ -39,7 +42,7 @@ pub struct Scene {
     pub solver: SolverSettings,
     /// Whether the file says that patches see nothing but fronts, so that rows should sum to 1.
     pub closed: bool,
-    /// What the file says beside, and means nothing here.
+    /// What its files say beside, and means nothing here, and what of them was left out.
     pub notes: Vec<String>,
 }
 
@@ -79,8 +82,14 @@ impl Scene {
     }
 }
 
-/// Reads and checks a scene file (TOML, or `.vs3` of View3D), and the mesh files that it names.
+/// Reads and checks a scene file (TOML, or `.vs3` of View3D), and the mesh files that it names,
+/// which are in its folder.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
+    load_with(path, MeshFiles::InFolder)
+}
+
+/// [`load`] for meshes elsewhere.
+pub fn load_with(path: &Path, mesh_files: MeshFiles) -> Result<Scene, SceneError> {
     if ends_in(path, "obj") {
         let help = "write a scene file with a surface: mesh = { file = \"NAME.obj\" }";
         return Err(SceneError::of_file(
@@ -89,16 +98,21 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
             help,
         ));
     }
-    let unreadable = |error| {
+    let bytes = input::read(path).map_err(|error| {
         let title = format!("cannot read the scene: {error}");
         SceneError::of_file(path, &title, "give the path of a scene file (.toml, .vs3)")
-    };
-    if ends_in(path, "vs3") {
-        // Comments and names may be in any encoding.
-        let bytes = std::fs::read(path).map_err(unreadable)?;
-        return parse(path, &String::from_utf8_lossy(&bytes));
+    })?;
+    if let Some(format) = foreign(&bytes) {
+        let title = format!("the scene is {}, which is not read", format.name);
+        return Err(SceneError::of_file(path, &title, format.help));
     }
-    parse(path, &std::fs::read_to_string(path).map_err(unreadable)?)
+    // Comments and names of View3D may be in any encoding.
+    let text = String::from_utf8_lossy(&bytes);
+    if matches!(text, Cow::Owned(_)) && !ends_in(path, "vs3") {
+        let title = "the scene is no text in UTF-8";
+        return Err(SceneError::of_file(path, title, "save it as UTF-8"));
+    }
+    parse_with(path, &text, mesh_files)
 }
 
 fn ends_in(path: &Path, ending: &str) -> bool {
@@ -109,6 +123,10 @@ fn ends_in(path: &Path, ending: &str) -> bool {
 /// Checks the text of a scene file; `path` says by its ending what kind it is, is what errors name,
 /// and meshes are relative to it.
 pub fn parse(path: &Path, text: &str) -> Result<Scene, SceneError> {
+    parse_with(path, text, MeshFiles::InFolder)
+}
+
+fn parse_with(path: &Path, text: &str, mesh_files: MeshFiles) -> Result<Scene, SceneError> {
     if ends_in(path, "vs3") {
         return vs3::parse(&Source { path, text });
     }
@@ -123,14 +141,19 @@ pub fn parse(path: &Path, text: &str) -> Result<Scene, SceneError> {
     let context = Context {
         source,
         folder: path.parent().unwrap_or(Path::new("")),
+        mesh_files,
         materials: &materials,
     };
-    let (geometry, surfaces) = context.surfaces(&file.surfaces)?;
+    let Surfaces {
+        shapes,
+        surfaces,
+        notes,
+    } = context.surfaces(&file.surfaces)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     let lights = keep_used(lights, &mut materials, &surfaces);
     Ok(Scene {
         name: name.into_owned(),
-        geometry,
+        geometry: shapes,
         surfaces,
         camera: camera.transpose()?,
         views: views(&source, &file.views)?,
@@ -141,6 +164,6 @@ pub fn parse(path: &Path, text: &str) -> Result<Scene, SceneError> {
         materials,
         lights,
         closed: false,
-        notes: Vec::new(),
+        notes,
     })
 }

@@ -1,6 +1,7 @@
 //! The text of a file, and errors that point into it.
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use std::borrow::Cow;
 use std::ops::Range;
 use std::path::Path;
 
@@ -26,6 +27,19 @@ pub(crate) struct Complaint {
     pub(crate) label: String,
     /// How to mend it.
     pub(crate) help: Option<String>,
+}
+
+/// Bytes of text that are printed at once; names in files may have millions.
+const MOST_TEXT: usize = 1000;
+
+/// A text without its middle, if it is too long to be printed.
+pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
+    if text.len() <= MOST_TEXT {
+        return Cow::Borrowed(text);
+    }
+    let start = text.floor_char_boundary(MOST_TEXT / 2);
+    let end = text.ceil_char_boundary(text.len() - MOST_TEXT / 4);
+    Cow::Owned(format!("{} … {}", &text[..start], &text[end..]))
 }
 
 impl Complaint {
@@ -76,17 +90,27 @@ impl Source<'_> {
     /// An error at a range of bytes of the text.
     pub(crate) fn error(&self, span: Range<usize>, complaint: &Complaint) -> SceneError {
         let path = self.path.display().to_string();
+        let span = span.start
+            ..span
+                .end
+                .min(self.text.floor_char_boundary(span.start + MOST_TEXT));
+        // The lines of the span alone: the renderer goes through all that it is given.
+        let (before, after) = (&self.text[..span.start], &self.text[span.end..]);
+        let start = before.rfind('\n').map_or(0, |at| at + 1);
+        let after = &after[..after.floor_char_boundary(MOST_TEXT)];
+        let end = span.end + after.find('\n').unwrap_or(after.len());
         let annotation = AnnotationKind::Primary
-            .span(span)
-            .label(complaint.label.as_str());
-        let snippet = Snippet::source(self.text)
+            .span(span.start - start..span.end - start)
+            .label(shortened(&complaint.label));
+        let snippet = Snippet::source(&self.text[start..end])
+            .line_start(1 + before.matches('\n').count())
             .path(path.as_str())
             .annotation(annotation);
         let mut group = Level::ERROR
-            .primary_title(complaint.title.as_str())
+            .primary_title(shortened(&complaint.title))
             .element(snippet);
         if let Some(help) = &complaint.help {
-            group = group.element(Level::HELP.message(help.as_str()));
+            group = group.element(Level::HELP.message(shortened(help)));
         }
         SceneError {
             report: Renderer::plain().render(&[group]),
@@ -109,7 +133,7 @@ impl Source<'_> {
 impl SceneError {
     /// An error of a whole file.
     pub(crate) fn of_file(path: &Path, title: &str, help: &str) -> SceneError {
-        let path = path.display();
+        let (path, title) = (path.display(), shortened(title));
         SceneError {
             report: format!("error: {title}\n  --> {path}\n   = help: {help}"),
         }

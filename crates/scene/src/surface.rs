@@ -1,13 +1,14 @@
 //! `[[surfaces]]`.
 
+use crate::input::MeshFiles;
 use crate::material::Material;
 use crate::mesh::MeshTable;
 use crate::obj;
 use crate::source::{Complaint, SceneError, Source};
-use crate::values::{Counts, Vector, divisions, require, vector};
+use crate::values::{Counts, Vector, check_name, divisions, vector};
 use radiosity_geometry::{self as geometry, DVec3, Divisions, Shape};
 use serde::Deserialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -60,6 +61,7 @@ pub(crate) struct Context<'a> {
     pub(crate) source: Source<'a>,
     /// Where the scene file is: mesh paths are relative to it.
     pub(crate) folder: &'a Path,
+    pub(crate) mesh_files: MeshFiles,
     pub(crate) materials: &'a [Material],
 }
 
@@ -68,6 +70,17 @@ pub(crate) struct Geometry {
     pub(crate) shape: Shape,
     pub(crate) span: std::ops::Range<usize>,
     pub(crate) labels: Vec<obj::Label>,
+    /// What was left out of it.
+    pub(crate) notes: Vec<String>,
+}
+
+/// All surfaces.
+#[derive(Default)]
+pub(crate) struct Surfaces {
+    pub(crate) shapes: Vec<geometry::Surface>,
+    /// What else is known of each, in the same order.
+    pub(crate) surfaces: Vec<Surface>,
+    pub(crate) notes: Vec<String>,
 }
 
 impl Context<'_> {
@@ -75,28 +88,20 @@ impl Context<'_> {
     pub(crate) fn surfaces(
         &self,
         tables: &[Spanned<SurfaceTable>],
-    ) -> Result<(Vec<geometry::Surface>, Vec<Surface>), SceneError> {
+    ) -> Result<Surfaces, SceneError> {
         let mut names = BTreeMap::new();
-        let mut result = (Vec::new(), Vec::new());
+        let mut result = Surfaces::default();
         for table in tables {
             let name = &table.get_ref().name;
-            require(
-                &self.source,
-                name,
-                |n| !n.trim().is_empty(),
-                "a name",
-                "some text",
-            )?;
+            check_name(&self.source, name, "a name")?;
             if names.insert(name.get_ref().clone(), name.span()).is_some() {
                 let title = format!("there are two surfaces named `{}`", name.get_ref());
                 let complaint = Complaint::new(title, "choose another name");
                 return Err(self.source.error(name.span(), &complaint));
             }
-            let (shape, surface) = self.surface(table)?;
-            result.0.push(shape);
-            result.1.push(surface);
+            self.add_surface(table, &mut result)?;
         }
-        self.check_groups(tables, &result.1)?;
+        self.check_groups(tables, &result.surfaces)?;
         Ok(result)
     }
 
@@ -121,16 +126,18 @@ impl Context<'_> {
         Ok(())
     }
 
-    fn surface(
+    fn add_surface(
         &self,
         spanned: &Spanned<SurfaceTable>,
-    ) -> Result<(geometry::Surface, Surface), SceneError> {
+        result: &mut Surfaces,
+    ) -> Result<(), SceneError> {
         let table = spanned.get_ref();
         let name = table.name.get_ref();
         let Geometry {
             shape,
             span,
             labels,
+            notes,
         } = self.geometry(table)?;
         let polygons = shape.polygons().map_err(|error| {
             let complaint = Complaint::new(format!("surface `{name}` {error}"), "this shape");
@@ -148,21 +155,23 @@ impl Context<'_> {
             return Err(self.source.error(counts.span(), &complaint));
         }
         if let Some(group) = &table.group {
-            let has_text = |name: &String| !name.trim().is_empty();
-            require(&self.source, group, has_text, "a group", "some text")?;
+            check_name(&self.source, group, "a group")?;
         }
         let (group, groups_of_faces) = match &table.group {
             Some(group) => (group.get_ref(), Vec::new()),
             None => (name, groups_of_faces(name, &labels)),
         };
-        let surface = Surface {
+        result.surfaces.push(Surface {
             name: name.clone(),
             group: group.clone(),
             groups_of_faces,
             materials: self.materials_of(table, &labels)?,
             polygons: labels.iter().map(|label| label.polygon as u32).collect(),
-        };
-        Ok((geometry::Surface { shape, divisions }, surface))
+        });
+        result.shapes.push(geometry::Surface { shape, divisions });
+        let notes = notes.iter().map(|note| format!("surface `{name}`: {note}"));
+        result.notes.extend(notes);
+        Ok(())
     }
 
     fn geometry(&self, table: &SurfaceTable) -> Result<Geometry, SceneError> {
@@ -170,6 +179,7 @@ impl Context<'_> {
             shape,
             span,
             labels: Vec::new(),
+            notes: Vec::new(),
         };
         match (
             &table.parallelogram,
@@ -234,15 +244,12 @@ impl Context<'_> {
             return Err(self.source.error(label.span(), &complaint));
         }
         let mut by_label = BTreeMap::new();
+        let names: BTreeSet<&str> = labels.iter().flat_map(obj::Label::names).collect();
         for (label, material) in &table.materials {
-            let known = |l: &obj::Label| l.names().any(|name| name == label.get_ref());
-            if !labels.iter().any(known) {
+            if !names.contains(label.get_ref().as_str()) {
                 let title = format!("the mesh has no group or material `{}`", label.get_ref());
-                let mut names: Vec<&str> = labels.iter().flat_map(obj::Label::names).collect();
-                names.sort_unstable();
-                names.dedup();
                 let complaint = Complaint::new(title, "not in the mesh file")
-                    .suggest(label.get_ref(), names.into_iter());
+                    .suggest(label.get_ref(), names.iter().copied());
                 return Err(self.source.error(label.span(), &complaint));
             }
             by_label.insert(label.get_ref().as_str(), self.material(material)?);

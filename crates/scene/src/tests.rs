@@ -1,6 +1,9 @@
 //! What scenes mean when they are right, and what is said when they are wrong.
 
+mod files;
 mod meshes;
+mod names;
+mod obj;
 
 use crate::{Automatic, Exposure, Gamma, Mode, Relaxation, Scene, SolverMethod, Tone, parse};
 use proptest::prelude::*;
@@ -66,7 +69,7 @@ fn views_have_cameras_of_their_own() {
         (&["all"], "this stands for all views"),
         (&["camera"], "this stands for all views"),
         (&["a/b"], "files are named after it"),
-        (&[""], "files are named after it"),
+        (&[""], "must be some text"),
     ] {
         let error = with(names).expect_err(what);
         assert!(error.contains(what), "{error}");
@@ -183,6 +186,11 @@ fn mistakes_are_explained() {
         ("edge_b = [0, 1, 0]", "edge_b = [2, 0, 0]"),
         ("edge_b = [0, 1, 0]", "edge_b = [inf, 0, 0]"),
         ("edge_b = [0, 1, 0]", "edge_b = [0, 1]"),
+        ("edge_b = [0, 1, 0]", "edge_b = [0, 1, 0, 0.5]"),
+        ("position = [0, 0, 5]", "position = [0,5, 0,5, 5,0]"),
+        ("[[0, 0, 1], ", "[[0, 0, 1,5], "),
+        ("emission = 12", "emission = [1,5, 2,5, 3]"),
+        ("divisions = [3, 4]", "divisions = [3, 4, 5]"),
         ("[1, 0, 1], ", ""),
         (
             "parallelogram = ",

@@ -148,14 +148,14 @@ fn check_lies_on(
     let tolerance = ON_PLANE * size(&base.corners);
     let is_on_plane = |corner: &DVec3| normal.dot(corner - from).abs() <= tolerance;
     if !entry.corners.iter().all(is_on_plane) {
-        return complain("is not in the plane of", "move it there, or write base 0");
+        let help = "move it there; base 0 is for surfaces that lie on none";
+        return complain("is not in the plane of", help);
     }
     let [a, b, c] = [0, 1, 2].map(|k| entry.corners[k]);
     if (b - a).cross(c - b).dot(normal) < 0.0 {
-        return complain(
-            "faces the other way than",
-            "reverse the order of its vertices",
-        );
+        let help = "what lies on a surface faces as it does; masks and null surfaces, which face the \
+                    other way, are not read";
+        return complain("faces the other way than", help);
     }
     let is_inside = |corner: &DVec3| {
         (0..base.corners.len()).all(|k| {
@@ -165,7 +165,8 @@ fn check_lies_on(
         })
     };
     if !entry.corners.iter().all(is_inside) {
-        return complain("reaches beyond", "cut it in two, or write base 0");
+        let help = "cut it along the edges of its base; what is beyond lies on none and has base 0";
+        return complain("reaches beyond", help);
     }
     Ok(())
 }

@@ -9,7 +9,7 @@ use super::parse::{
 };
 use super::solver_args::SolveArgs;
 use clap::{Args, Subcommand};
-use radiosity_scene::Gamma;
+use radiosity_scene::{Gamma, MeshFiles};
 use std::path::PathBuf;
 
 /// The stages, and what helps with them.
@@ -43,7 +43,10 @@ pub enum Command {
 pub struct SceneArgs {
     /// A scene file, or the name of one in `scenes/`
     #[arg(default_value = "cornell")]
-    pub scene: String,
+    pub scene: PathBuf,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "a comment here would replace the help text")]
+    pub outside: OutsideArgs,
     /// Patches along each edge of a surface, as N or AxB, instead of the scene's default;
     /// surfaces with divisions of their own keep them
     #[arg(long, value_name = "N", value_parser = parse_counts, conflicts_with = "max_patch_edge")]
@@ -51,6 +54,23 @@ pub struct SceneArgs {
     /// Longest edge of a patch, in scene units, instead of the scene's default
     #[arg(long, value_name = "LENGTH", value_parser = parse_positive, allow_negative_numbers = true)]
     pub max_patch_edge: Option<f64>,
+}
+
+/// Which files a scene may name.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct OutsideArgs {
+    /// Read meshes outside of the scene's folder, too
+    #[arg(long)]
+    pub allow_outside: bool,
+}
+
+impl OutsideArgs {
+    pub(super) fn mesh_files(self) -> MeshFiles {
+        match self.allow_outside {
+            true => MeshFiles::Anywhere,
+            false => MeshFiles::InFolder,
+        }
+    }
 }
 
 /// How form factors are estimated, and where artifacts are kept.
@@ -185,7 +205,10 @@ pub struct DisplayCommand {
 pub struct ReferenceCommand {
     /// A scene file, or the name of one in `scenes/`
     #[arg(default_value = "cornell")]
-    pub scene: String,
+    pub scene: PathBuf,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "a comment here would replace the help text")]
+    pub outside: OutsideArgs,
     /// Random walks per pixel (rounded up to whole passes of one per sub-pixel) or per patch, at
     /// least 2
     #[arg(long, value_name = "N", default_value = "64", value_parser = clap::value_parser!(u32).range(2..))]
@@ -235,6 +258,9 @@ pub struct CompareCommand {
     /// need it
     #[arg(long)]
     pub scene: Option<String>,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "a comment here would replace the help text")]
+    pub outside: OutsideArgs,
     /// Cells along each edge of every surface in the tables, as N or AxB [default: the scene's
     /// own patches]
     #[arg(long, value_name = "N", value_parser = parse_counts)]
@@ -289,7 +315,10 @@ pub struct InspectCommand {
     pub file: PathBuf,
     /// The scene, for the names of its surfaces [default: the one that the file is named after]
     #[arg(long)]
-    pub scene: Option<String>,
+    pub scene: Option<PathBuf>,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "a comment here would replace the help text")]
+    pub outside: OutsideArgs,
     /// Print one JSON object on standard output
     #[arg(long)]
     pub json: bool,

@@ -11,7 +11,7 @@ use radiosity_geometry::count_patches;
 use radiosity_scene::{Light, Scene};
 
 pub(super) fn run(args: &CheckArgs, site: &Site) -> Result<(), Error> {
-    let mut scene = site.load(&args.scene.scene)?;
+    let mut scene = site.load(&args.scene.scene, args.scene.outside)?;
     args.scene.apply(&mut scene);
     let needs = needs_of(&scene)?;
     for line in check_lines(&scene, &needs) {

@@ -43,7 +43,10 @@ struct Compared {
 }
 
 pub(crate) fn run(args: &CompareCommand, site: &Site) -> Result<(), Error> {
-    let scene = args.scene.as_ref().map(|name| site.load(name));
+    let scene = args
+        .scene
+        .as_ref()
+        .map(|name| site.load(name.as_ref(), args.outside));
     let scene = scene.transpose()?;
     if let Some(path) = &args.difference {
         check_folder_of(path)?;

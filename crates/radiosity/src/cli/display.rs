@@ -17,7 +17,7 @@ use radiosity_scene::Scene;
 use std::time::Instant;
 
 pub(super) fn run(args: &DisplayCommand, site: &Site) -> Result<(), Error> {
-    let mut scene = site.load(&args.scene.scene)?;
+    let mut scene = site.load(&args.scene.scene, args.scene.outside)?;
     args.scene.apply(&mut scene);
     args.estimate.apply(&mut scene);
     args.solve.apply(&mut scene);

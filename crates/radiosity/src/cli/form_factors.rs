@@ -17,7 +17,7 @@ pub(super) fn run(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
     if let Some(path) = export {
         check_export(path, args)?;
     }
-    let mut scene = site.load(&args.scene.scene)?;
+    let mut scene = site.load(&args.scene.scene, args.scene.outside)?;
     args.scene.apply(&mut scene);
     args.estimate.apply(&mut scene);
     let sources = if args.recompute {

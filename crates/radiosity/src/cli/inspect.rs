@@ -65,10 +65,10 @@ fn surface_names(
 ) -> Result<Option<Vec<String>>, Error> {
     let name = args.file.file_name().unwrap_or_default().to_string_lossy();
     let scene = match &args.scene {
-        Some(scene) => Some(site.load(scene)?),
+        Some(scene) => Some(site.load(scene, args.outside)?),
         None => name
             .rsplit_once(&format!("-{stage}-"))
-            .and_then(|(scene, _)| site.load(scene).ok()),
+            .and_then(|(scene, _)| site.load(scene.as_ref(), args.outside).ok()),
     };
     let names = |scene: radiosity_scene::Scene| {
         let surfaces = scene.surfaces.into_iter();

@@ -27,7 +27,8 @@ mod view_args;
 
 pub use args::{
     CacheAction, CacheArgs, CacheCommand, CheckArgs, Command, CompareCommand, DisplayCommand,
-    EstimateArgs, FormFactorsCommand, InspectCommand, ReferenceCommand, SceneArgs, SolveCommand,
+    EstimateArgs, FormFactorsCommand, InspectCommand, OutsideArgs, ReferenceCommand, SceneArgs,
+    SolveCommand,
 };
 pub use image_args::{DisplayArgs, ImageArgs};
 pub use light_args::LightArgs;

@@ -52,7 +52,7 @@ struct PictureReport {
 }
 
 pub(crate) fn run(args: &ReferenceCommand, site: &Site) -> Result<(), Error> {
-    let mut scene = site.load(&args.scene)?;
+    let mut scene = site.load(&args.scene, args.outside)?;
     args.image.apply(&mut scene);
     let folder = args.output.as_ref().unwrap_or(&site.output);
     make_folder(folder)?;

@@ -54,7 +54,7 @@ pub fn run(command: &Command, site: &Site) -> ExitCode {
 
 /// `sources` says whether a cached solution will do.
 fn solve(args: &SolveCommand, site: &Site, sources: Sources) -> Result<(), Error> {
-    let mut scene = site.load(&args.scene.scene)?;
+    let mut scene = site.load(&args.scene.scene, args.scene.outside)?;
     args.scene.apply(&mut scene);
     args.estimate.apply(&mut scene);
     args.solve.apply(&mut scene);

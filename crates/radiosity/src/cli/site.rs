@@ -1,9 +1,11 @@
 //! Where things are kept: in a checkout, or around an installed command.
 
+use super::args::OutsideArgs;
 use super::terminal::tell;
 use crate::error::Error;
 use etcetera::{BaseStrategy, choose_base_strategy};
-use radiosity_scene::{Scene, load};
+use radiosity_scene::{Scene, load_with};
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 /// The folders that a command uses unless told otherwise.
@@ -15,6 +17,13 @@ pub struct Site {
     pub cache: PathBuf,
     /// Pictures.
     pub output: PathBuf,
+}
+
+/// What names of scene files end in.
+const ENDINGS: [&str; 2] = ["toml", "vs3"];
+
+fn is_of_scene(ending: &OsStr) -> bool {
+    ENDINGS.iter().any(|known| ending == *known)
 }
 
 impl Site {
@@ -41,28 +50,33 @@ impl Site {
     }
 
     /// Loads a scene by the path of its file, or by its name.
-    pub(crate) fn load(&self, wanted: &str) -> Result<Scene, Error> {
-        let scene = load(&self.path_of(wanted)?)?;
+    pub(crate) fn load(&self, wanted: &Path, outside: OutsideArgs) -> Result<Scene, Error> {
+        let scene = load_with(&self.path_of(wanted)?, outside.mesh_files())?;
         for note in &scene.notes {
             tell(&format!("note: {note}"));
         }
         Ok(scene)
     }
 
-    fn path_of(&self, wanted: &str) -> Result<PathBuf, Error> {
-        let endings = [".toml", ".vs3"];
-        let is_path = wanted.contains(['/', '\\']) || endings.iter().any(|e| wanted.ends_with(e));
-        if is_path || Path::new(wanted).is_file() {
-            return Ok(wanted.into());
+    fn path_of(&self, wanted: &Path) -> Result<PathBuf, Error> {
+        let is_path = wanted.components().count() > 1
+            || wanted.extension().is_some_and(is_of_scene)
+            || wanted.is_file();
+        if is_path {
+            return Ok(wanted.to_owned());
         }
-        let mut named = endings
-            .map(|ending| self.scenes.join(format!("{wanted}{ending}")))
-            .into_iter();
+        let with_ending = |ending| {
+            let mut name = self.scenes.join(wanted).into_os_string();
+            name.push(".");
+            name.push(ending);
+            PathBuf::from(name)
+        };
+        let mut named = ENDINGS.into_iter().map(with_ending);
         if let Some(named) = named.find(|path| path.is_file()) {
             return Ok(named);
         }
         Err(Error::NoSuchScene {
-            wanted: wanted.to_owned(),
+            wanted: wanted.display().to_string(),
             help: self.what_there_is(),
         })
     }
@@ -72,8 +86,7 @@ impl Site {
         let mut names: Vec<String> = entries
             .filter_map(|entry| {
                 let path = entry.ok()?.path();
-                let ending = path.extension()?;
-                let is_scene = ending == "toml" || ending == "vs3";
+                let is_scene = is_of_scene(path.extension()?);
                 is_scene.then(|| path.file_stem()?.to_str().map(str::to_owned))?
             })
             .collect();

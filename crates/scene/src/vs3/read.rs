@@ -1,6 +1,7 @@
 //! The lines of a `.vs3` file.
 
-use crate::source::{Complaint, SceneError, Source};
+use crate::source::{Complaint, SceneError, Source, shortened};
+use crate::values::MOST_NAME;
 use arrayvec::ArrayVec;
 use radiosity_geometry::DVec3;
 use std::collections::HashMap;
@@ -75,8 +76,8 @@ pub(super) fn read(source: &Source<'_>) -> Result<File, SceneError> {
             // The last is how DOS ends a file.
             '*' | 'E' | '\u{1a}' => break,
             'M' | 'N' => {
-                let title = "mask and null surfaces are not supported";
-                let help = "write S or O, and cut the surface so that no mask is needed";
+                let title = "masks and null surfaces (M, N) are not read";
+                let help = "no other line says the same: this scene is one for View3D alone";
                 return Err(words.error(title, "this line", help));
             }
             _ => {
@@ -119,6 +120,7 @@ impl File {
                 [name, value] if name.eq_ignore_ascii_case("encl") => self.closed = *value != "0",
                 _ => {
                     let control = control.join("=");
+                    let control = shortened(&control);
                     self.notes
                         .push(format!("`C {control}` in line {line} is not used"));
                 }
@@ -135,6 +137,12 @@ impl File {
                 let title = format!("the vertex's {name} is not finite");
                 return Err(words.error(&title, "this vertex", "give a number"));
             }
+        }
+        let next = words.words.next().map(str::parse::<f64>);
+        if matches!(next, Some(Ok(_))) {
+            let title = "this vertex has more than three coordinates";
+            let help = "decimals take a point, as in 2.5: commas are blanks here";
+            return Err(words.error(title, "this vertex", help));
         }
         if self.vertices.insert(number, position).is_some() {
             let title = format!("there are two vertices {number}");
@@ -164,6 +172,11 @@ impl File {
             return Err(words.error(&title, "the second", "give it another number"));
         }
         let name = words.words.as_slice().join(" ");
+        if name.len() > MOST_NAME {
+            let title = format!("the name of surface {number} has {} bytes", name.len());
+            let help = format!("give it one of at most {MOST_NAME}");
+            return Err(words.error(&title, "this surface", &help));
+        }
         self.entries.push(Entry {
             line: words.line,
             number,

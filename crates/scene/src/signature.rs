@@ -1,0 +1,76 @@
+//! Files that are neither scenes nor OBJ meshes, told by how they begin.
+
+/// What a file is instead.
+#[derive(Clone, Copy)]
+pub(crate) struct Foreign {
+    pub(crate) name: &'static str,
+    /// How to make it one that is read.
+    pub(crate) help: &'static str,
+}
+
+const ENCODED: &str = "save it as UTF-8";
+const PACKED: &str = "unpack it";
+const EXPORT: &str = "export it as Wavefront OBJ (.obj): most modelling programs can";
+
+const SIGNATURES: [(&[u8], &str, &str); 19] = [
+    (b"\xff\xfe", "text in UTF-16", ENCODED),
+    (b"\xfe\xff", "text in UTF-16", ENCODED),
+    (b"\x1f\x8b", "compressed by gzip", PACKED),
+    (b"BZh", "compressed by bzip2", PACKED),
+    (b"\xfd7zXZ", "compressed by xz", PACKED),
+    (b"\x28\xb5\x2f\xfd", "compressed by Zstandard", PACKED),
+    (b"7z\xbc\xaf", "a 7z archive", PACKED),
+    (
+        b"PK\x03\x04",
+        "a ZIP archive (3MF, USDZ or another)",
+        EXPORT,
+    ),
+    (b"ply\n", "a PLY file", EXPORT),
+    (b"ply\r", "a PLY file", EXPORT),
+    (b"glTF", "a binary glTF file (GLB)", EXPORT),
+    (b"Kaydara FBX Binary", "an FBX file", EXPORT),
+    (b"; FBX", "an FBX file", EXPORT),
+    (b"BLENDER", "a file of Blender", EXPORT),
+    (b"ISO-10303-21", "a STEP or IFC file", EXPORT),
+    (b"#VRML V", "a VRML file", EXPORT),
+    (b"#usda 1", "a USD file", EXPORT),
+    (b"PXR-USDC", "a USD file", EXPORT),
+    (b"<", "an XML file (COLLADA, X3D or another)", EXPORT),
+];
+
+/// Bytes of a file in which its format shows.
+const LOOKED_AT: usize = 4096;
+
+/// What a file is, if it can be no scene and no OBJ mesh.
+pub(crate) fn foreign(bytes: &[u8]) -> Option<Foreign> {
+    let known = SIGNATURES.iter().find(|known| bytes.starts_with(known.0));
+    if let Some(&(_, name, help)) = known {
+        return Some(Foreign { name, help });
+    }
+    let start = &bytes[..bytes.len().min(LOOKED_AT)];
+    let text = String::from_utf8_lossy(start);
+    let words: Vec<&str> = text.split_whitespace().take(2).collect();
+    let name = if is_binary_stl(bytes) {
+        "a binary STL file"
+    } else if words.first() == Some(&"solid") && text.contains("facet") {
+        "an ASCII STL file"
+    } else if text.trim_start().starts_with('{') {
+        "a JSON file (glTF or another)"
+    } else if words.first() == Some(&"OFF") {
+        "an OFF file"
+    } else if words == ["0", "SECTION"] {
+        "a DXF file"
+    } else if start.contains(&0) {
+        "a binary file of a format that is not known"
+    } else {
+        return None;
+    };
+    Some(Foreign { name, help: EXPORT })
+}
+
+/// 80 bytes of any content, the number of triangles, and 50 bytes for each.
+fn is_binary_stl(bytes: &[u8]) -> bool {
+    let count = bytes.get(80..84).and_then(|count| count.try_into().ok());
+    let size = |count| 84 + 50 * u64::from(u32::from_le_bytes(count));
+    count.map(size) == Some(bytes.len() as u64)
+}
