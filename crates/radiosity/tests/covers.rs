@@ -51,11 +51,8 @@ fn all_power_is_absorbed() {
 #[test]
 fn surfaces_are_named() {
     let place_of = |mode: &str| {
-        let output = place(mode)
-            .run("form-factors room.toml --no-cache")
-            .assert()
-            .success();
-        String::from_utf8(output.get_output().stderr.clone()).unwrap()
+        let (_, _, stderr) = place(mode).run("form-factors room.toml --no-cache");
+        stderr
     };
     let note = place_of("accurate");
     assert!(note.contains("note: `lamp` lies on `ceiling`"), "{note}");
