@@ -14,6 +14,7 @@ mod errors;
 mod pictures;
 mod portable;
 mod regions;
+mod size;
 mod table;
 mod tables;
 
@@ -22,5 +23,6 @@ pub use difference::{DifferencePicture, difference_picture};
 pub use errors::{Errors, Percentiles};
 pub use pictures::{PictureError, compare_pictures};
 pub use regions::{Regions, RegionsError, decode_regions};
+pub use size::SizeError;
 pub use table::{Row, Table, TableError, parse_table};
 pub use tables::{Cell, compare_tables};

@@ -98,6 +98,22 @@ pub(crate) fn check_image(width: u32, height: u32) -> Result<(), Error> {
     }
 }
 
+/// Refuses files that do not fit into memory.
+pub(crate) fn check_file(path: &Path, size: u64) -> Result<(), Error> {
+    match usable_memory() {
+        Some(usable) if size > usable => Err(Error::Resources {
+            problem: format!(
+                "{} has {}, but only {} of memory can be used",
+                path.display(),
+                bytes(size),
+                bytes(usable),
+            ),
+            remedy: "give a smaller file".to_owned(),
+        }),
+        _ => Ok(()),
+    }
+}
+
 /// Refuses a matrix between so many parts that does not fit into memory.
 pub(crate) fn check_parts(parts: usize) -> Result<(), Error> {
     let needed = 8 * (parts as u64).pow(2);

@@ -1,6 +1,7 @@
 //! `compare`: how far one result is from another.
 
 use super::args::CompareCommand;
+use super::input::read;
 use super::run::{check_folder_of, write};
 use super::site::Site;
 use super::terminal::{say, tell};
@@ -25,13 +26,13 @@ const USUAL: Transfer = Transfer::Gamma(2.2);
 #[derive(Debug, Serialize)]
 struct Json {
     /// The compared files.
-    found: PathBuf,
-    reference: PathBuf,
+    found: String,
+    reference: String,
     /// Regions of pictures, surfaces of tables, and `all`.
     regions: BTreeMap<String, Errors>,
     /// The written picture of differences.
     #[serde(skip_serializing_if = "Option::is_none")]
-    difference: Option<PathBuf>,
+    difference: Option<String>,
 }
 
 /// What came out.
@@ -61,11 +62,12 @@ pub(crate) fn run(args: &CompareCommand, site: &Site) -> Result<(), Error> {
         }
     };
     if args.json {
+        let text = |path: &PathBuf| path.display().to_string();
         let json = Json {
-            found: args.found.clone(),
-            reference: args.reference.clone(),
+            found: text(&args.found),
+            reference: text(&args.reference),
             regions: compared.named.into_iter().collect(),
-            difference: args.difference.clone(),
+            difference: args.difference.as_ref().map(text),
         };
         return say(&serde_json::to_string(&json).expect("plain data always encodes"));
     }
@@ -186,11 +188,6 @@ fn surfaces_left_out(cells: &[Cell], named: &[(String, Errors)]) -> String {
     }
     left_out.dedup();
     left_out.join(", ")
-}
-
-fn read(path: &Path) -> Result<Vec<u8>, Error> {
-    std::fs::read(path)
-        .map_err(|error| Error::Input(format!("cannot read {}: {error}", path.display())))
 }
 
 /// Says which file an error is about.

@@ -1,6 +1,7 @@
 //! `inspect`.
 
 use super::args::InspectCommand;
+use super::input;
 use super::site::Site;
 use super::terminal::say;
 use crate::error::Error;
@@ -16,13 +17,13 @@ const LONGEST_BAR: f64 = 40.0;
 pub(super) fn run(args: &InspectCommand, site: &Site) -> Result<(), Error> {
     let path = &args.file;
     let unusable = |miss: Miss| Error::Input(explanation(path, &miss));
+    let size = input::size(path)?;
     let opened = open(path).map_err(unusable)?;
     let names = surface_names(args, site, &opened.stage)?;
     let inspection = Inspection::of(opened, names.as_deref()).map_err(unusable)?;
     if args.json {
         return say(&serde_json::to_string(&inspection).expect("plain data always encodes"));
     }
-    let size = std::fs::metadata(path).map_or(0, |metadata| metadata.len());
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     say(&labelled(
         "file",

@@ -9,6 +9,7 @@ mod compare;
 mod display;
 mod form_factors;
 mod image_args;
+mod input;
 mod inspect;
 mod light_args;
 mod live;
