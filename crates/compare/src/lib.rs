@@ -16,6 +16,7 @@ mod portable;
 mod regions;
 mod size;
 mod table;
+mod table_name;
 mod tables;
 
 pub use decode::{DecodeError, Decoded, Screen, decode_picture};
@@ -25,4 +26,5 @@ pub use pictures::{PictureError, compare_pictures};
 pub use regions::{Regions, RegionsError, decode_regions};
 pub use size::SizeError;
 pub use table::{Row, Table, TableError, parse_table};
+pub use table_name::table_name;
 pub use tables::{Cell, compare_tables};

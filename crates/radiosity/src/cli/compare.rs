@@ -2,9 +2,10 @@
 
 use super::args::CompareCommand;
 use super::input::read;
+use super::printable;
 use super::run::{check_folder_of, write};
 use super::site::Site;
-use super::terminal::{say, tell};
+use super::terminal::{say, say_json, tell};
 use crate::error::Error;
 use crate::export::{cells, table_mesh};
 use crate::resources::grouped;
@@ -69,7 +70,7 @@ pub(crate) fn run(args: &CompareCommand, site: &Site) -> Result<(), Error> {
             regions: compared.named.into_iter().collect(),
             difference: args.difference.as_ref().map(text),
         };
-        return say(&serde_json::to_string(&json).expect("plain data always encodes"));
+        return say_json(&json);
     }
     print(&compared)?;
     match &args.difference {
@@ -196,13 +197,17 @@ fn at<E: std::fmt::Display>(path: &Path) -> impl Fn(E) -> Error {
 }
 
 fn print(Compared { named, left_out }: &Compared) -> Result<(), Error> {
-    let longest = named.iter().map(|(name, _)| name.chars().count()).max();
+    let names: Vec<String> = named
+        .iter()
+        .map(|(name, _)| printable::name(name))
+        .collect();
+    let longest = names.iter().map(|name| name.chars().count()).max();
     let width = longest.unwrap_or(0).max(12);
     say(&format!(
         "{:<width$}    RMSE %    bias %    median       90 %       99 %    largest    values",
         ""
     ))?;
-    for (name, errors) in named {
+    for (name, (_, errors)) in names.iter().zip(named) {
         let Errors {
             rmse_percent: rmse,
             bias_percent: bias,

@@ -2,28 +2,26 @@
 
 use crate::error::Error;
 use crate::resources::check_file;
-use std::fmt::Display;
 use std::path::Path;
 
 /// All bytes of a file.
 pub(super) fn read(path: &Path) -> Result<Vec<u8>, Error> {
-    check_file(path, size(path)?)?;
-    std::fs::read(path).map_err(|error| unreadable(path, &error))
+    check_regular(path)?;
+    let size = std::fs::metadata(path).map_or(0, |metadata| metadata.len());
+    check_file(path, size)?;
+    std::fs::read(path)
+        .map_err(|error| Error::Input(format!("cannot read {}: {error}", path.display())))
 }
 
-/// The size of a file. Whatever else is there is refused before it is opened: opening a pipe waits
-/// for its writer, and a device may have no end.
-pub(super) fn size(path: &Path) -> Result<u64, Error> {
-    let metadata = std::fs::metadata(path).map_err(|error| unreadable(path, &error))?;
-    if metadata.is_file() {
-        Ok(metadata.len())
-    } else {
-        let help = "what comes from a pipe or a device must be saved first";
-        let problem = format!("it is no regular file\n   = help: {help}");
-        Err(unreadable(path, &problem))
+/// Refuses what is there and no file, before it is opened: opening a pipe waits for its writer, and a
+/// device may have no end.
+pub(super) fn check_regular(path: &Path) -> Result<(), Error> {
+    match std::fs::metadata(path) {
+        Ok(metadata) if !metadata.is_file() => Err(Error::Input(format!(
+            "cannot read {}: it is no regular file\n   = help: what comes from a pipe or a device \
+             must be saved first",
+            path.display()
+        ))),
+        _ => Ok(()),
     }
-}
-
-fn unreadable(path: &Path, problem: &dyn Display) -> Error {
-    Error::Input(format!("cannot read {}: {problem}", path.display()))
 }

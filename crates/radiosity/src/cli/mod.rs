@@ -16,6 +16,7 @@ mod live;
 mod look;
 mod parse;
 mod print;
+mod printable;
 mod reference;
 mod run;
 mod save;

@@ -3,7 +3,7 @@
 use super::args::ReferenceCommand;
 use super::run::{make_folder, with_threads, write};
 use super::site::Site;
-use super::terminal::{Terminal, say};
+use super::terminal::{Terminal, say_json};
 use crate::error::Error;
 use crate::export::{reference_table, table_mesh};
 use crate::lines::indented;
@@ -68,9 +68,9 @@ pub(crate) fn run(args: &ReferenceCommand, site: &Site) -> Result<(), Error> {
             terminal.line(&indented(path));
         }
         if args.json {
-            say(&serde_json::to_string(&json).expect("plain data always encodes"))?;
+            say_json(&json)?;
         }
-        Ok(())
+        terminal.finish()
     })
 }
 
