@@ -66,6 +66,7 @@ impl Pipeline<'_> {
             make,
         };
         let (form_factors, mut origin) = obtain(self.cache, self.observer, id, sources, recipe)?;
+        self.check_finite(&form_factors.rows)?;
         origin.bytes = 4 * form_factors.exchange.values().len() as u64;
         origin.seconds = start.elapsed().as_secs_f64();
         let rows = RowSummary::of(&form_factors);
@@ -100,9 +101,10 @@ impl Pipeline<'_> {
         values: impl AsRef<[f32]> + Send + Sync + 'static,
     ) -> Option<FormFactors> {
         let patches = self.mesh.patches.len();
+        let is_sound = facts.rows.len() == patches && facts.are_sound(values.as_ref().len());
         let exchange = SymmetricMatrix::new(patches, values).ok()?;
         let areas = self.mesh.patches.iter().map(|patch| patch.area).collect();
-        (facts.rows.len() == patches).then_some(FormFactors {
+        is_sound.then_some(FormFactors {
             areas,
             exchange,
             rows: facts.rows,
