@@ -64,10 +64,17 @@ impl<'a> FactorTable<'a> {
         form_factors: &'a FormFactors,
         by: By,
     ) -> Result<FactorTable<'a>, Error> {
-        let name_of: fn(&'a Scene, &Face) -> &'a str = match by {
+        type Name<'a> = fn(&'a Scene, &Face) -> &'a str;
+        let (name_of, remedy): (Name<'a>, _) = match by {
             By::Patch => return Ok(FactorTable::of_patches(scene, mesh, form_factors)),
-            By::Surface => |scene, face| &scene.surfaces[face.surface.index()].name,
-            By::Group => |scene, face| scene.group(face.surface, face.input_index),
+            By::Surface => (
+                |scene, face| &scene.surfaces[face.surface.index()].name,
+                "export them --by patch, or put surfaces into groups and export --by group",
+            ),
+            By::Group => (
+                |scene, face| scene.group(face.surface, face.input_index),
+                "export them --by patch, or put surfaces into fewer groups",
+            ),
         };
         let mut names: Vec<&str> = Vec::new();
         let mut part_of_name = BTreeMap::new();
@@ -80,7 +87,7 @@ impl<'a> FactorTable<'a> {
             })
         };
         let part_of: Vec<usize> = mesh.patches.iter().map(part).collect();
-        check_parts(names.len())?;
+        check_parts(names.len(), remedy)?;
         let lumped = form_factors.lumped(&part_of, names.len());
         let row = |(part, name)| TableRow {
             name: table_name(name),

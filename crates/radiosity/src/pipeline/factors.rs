@@ -20,6 +20,7 @@ impl Pipeline<'_> {
         let made = if self.scene.form_factors.closure {
             let id = self.form_factors_id();
             self.obtained(&id, sources, |store| {
+                self.job().needs().with_closure(true).check_memory()?;
                 let raw = self.estimated(sources)?.form_factors;
                 closed(&self.job(), &raw, store, &id)
             })
@@ -81,6 +82,7 @@ impl Pipeline<'_> {
         Job {
             mesh: &self.mesh,
             estimator: settings::estimator(self.scene),
+            closure: self.scene.form_factors.closure,
             observer: self.observer,
         }
     }
