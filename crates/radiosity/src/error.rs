@@ -1,8 +1,8 @@
 //! What can go wrong, for people and for exit codes.
 
 use radiosity_cache::CacheError;
-use radiosity_geometry::MeshError;
-use radiosity_scene::{Scene, SceneError};
+use radiosity_geometry::{Divisions, MeshError, count_patches};
+use radiosity_scene::{Mode, Scene, SceneError};
 use radiosity_solver::SolveError;
 use std::path::PathBuf;
 
@@ -50,6 +50,9 @@ pub enum Error {
     /// The cache folder cannot be used.
     #[error("error: {0}\n   = help: choose another folder with --cache, or use --no-cache")]
     Cache(#[from] CacheError),
+    /// Nor can the one that a command is about, which cannot do without.
+    #[error("error: {0}\n   = help: choose another folder with --cache")]
+    CacheFolder(CacheError),
     /// A result cannot be written.
     #[error("error: cannot write {}: {error}", path.display())]
     Output {
@@ -65,7 +68,7 @@ impl Error {
     /// The exit code of the command.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Error::Cache(_) | Error::Output { .. } => 1,
+            Error::Cache(_) | Error::CacheFolder(_) | Error::Output { .. } => 1,
             Error::Scene(_)
             | Error::NoSuchScene { .. }
             | Error::NoCamera
@@ -91,12 +94,17 @@ impl Error {
                     "surface `{name}` has no usable subdivision: counts and lengths must be positive"
                 )
             }
-            other => other.to_string(),
+            MeshError::TooManyPatches => too_many_patches(scene),
+            MeshError::Empty => error.to_string(),
         })
     }
 
     /// Names the surfaces of the patches that a solver error is about.
-    pub(crate) fn of_solver(error: &SolveError, name_of: impl Fn(usize) -> String) -> Error {
+    pub(crate) fn of_solver(
+        error: &SolveError,
+        mode: Mode,
+        name_of: impl Fn(usize) -> String,
+    ) -> Error {
         match error {
             SolveError::Diverges { worst_patches, .. } => {
                 let mut names: Vec<String> = Vec::new();
@@ -108,9 +116,14 @@ impl Error {
                 let names = names.join("`, `");
                 Error::Unsolvable {
                     problem: format!("{error}; the worst rows belong to `{names}`"),
-                    remedy: "estimate the form factors with --mode accurate, or lower the \
+                    remedy: match mode {
+                        Mode::Accurate => "lower the reflectances there",
+                        Mode::Regular | Mode::MonteCarlo => {
+                            "estimate the form factors with --mode accurate, or lower the \
                              reflectances there"
-                        .to_owned(),
+                        }
+                    }
+                    .to_owned(),
                 }
             }
             SolveError::NotFinite { patch } | SolveError::OutOfRange { patch } => {
@@ -121,4 +134,20 @@ impl Error {
             }
         }
     }
+}
+
+/// Cutting surfaces less helps, unless there are as many before anything is cut.
+fn too_many_patches(scene: &Scene) -> String {
+    match count_patches(&scene.undivided(), Divisions::uniform(1)) {
+        Err(MeshError::TooManyPatches) => {
+            "the scene has more than 1,048,576 faces, each of which is a patch at least\n   \
+             = help: use coarser meshes, or split the scene"
+        }
+        _ => {
+            "the subdivision gives more than 1,048,576 patches\n   \
+             = help: cut surfaces less (--patches, or a larger --max-patch-edge or `divisions` of \
+             surfaces)"
+        }
+    }
+    .to_owned()
 }

@@ -131,12 +131,17 @@ impl<'a> Pipeline<'a> {
         &self.scene.surfaces[self.mesh.patches[patch].surface.index()].name
     }
 
-    /// Why row sums of the scene's estimator may exceed 1.
-    pub(crate) fn known_weakness(&self) -> &'static str {
+    /// Why sums of these rows may exceed 1.
+    pub(crate) fn known_weakness(&self, rows: &RowSummary) -> &'static str {
+        let excess = rows.largest.0 - 1.0;
+        let is_estimated = rows
+            .estimated_error
+            .is_some_and(|(_, worst)| worst >= excess);
         match self.scene.form_factors.mode {
             Mode::Regular => "the regular rule overestimates patches that touch",
             Mode::MonteCarlo => "the variance is unbounded where patches touch; more --pairs help",
-            Mode::Accurate => "a smaller --tolerance helps",
+            Mode::Accurate if is_estimated => "a smaller --tolerance helps",
+            Mode::Accurate => "more than their errors: surfaces may cross, or lie in one place",
         }
     }
 
@@ -165,7 +170,8 @@ impl<'a> Pipeline<'a> {
 
     /// Names the surfaces that an error of the solver is about.
     fn of_solver(&self, error: &SolveError) -> Error {
-        Error::of_solver(error, |patch| self.surface_name(patch).to_owned())
+        let mode = self.scene.form_factors.mode;
+        Error::of_solver(error, mode, |patch| self.surface_name(patch).to_owned())
     }
 
     /// What each patch emits itself, with the lights as bright as the scene has them.

@@ -162,7 +162,7 @@ impl<'a> Report<'a> {
                 grouped(rows.excessive),
                 grouped(patches),
                 pipeline.surface_name(patch as usize),
-                pipeline.known_weakness(),
+                pipeline.known_weakness(rows),
             )));
         }
         self.json.stages.form_factors = Some(FormFactorReport {

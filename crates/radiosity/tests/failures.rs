@@ -157,3 +157,43 @@ fn stages_before_a_failure_are_reported() {
         "{stdout}"
     );
 }
+
+/// `ulimit -v` is a machine that is too small: whatever the limit is, a run ends well or says so.
+#[cfg(target_os = "linux")]
+#[test]
+fn limits_of_the_process_are_limits_of_memory() {
+    let place = Place::new();
+    let program = env!("CARGO_BIN_EXE_radiosity");
+    let run = |limit: u32, arguments: &str| {
+        let limited = format!("ulimit -v {limit}; exec \"$0\" {arguments}");
+        let mut command = std::process::Command::new("sh");
+        let command = command.args(["-c", &limited, program]);
+        let output = command.current_dir(place.0.path()).output().unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        (output.status.code(), stderr)
+    };
+    let solve = "solve room.toml --mode regular --points 1 --patches 150 --threads 2 --no-cache";
+    let (code, message) = run(300_000, solve);
+    assert_eq!(code, Some(4), "{message}");
+    assert!(
+        message.contains("of memory, but only") && message.contains("= help: use fewer patches"),
+        "{message}"
+    );
+    let (code, message) = run(300_000, &solve.replace("150", "20"));
+    assert_eq!(code, Some(0), "{message}");
+}
+
+/// What helps a mesh is another than what helps a square.
+#[test]
+fn meshes_that_are_too_large_are_told_what_helps() {
+    let place = Place::new();
+    let mut obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\n".to_owned();
+    obj += &"f 1 2 3\n".repeat((1 << 20) + 1);
+    place.write("block.obj", &obj);
+    let (code, message) = place.fail("check room.toml");
+    assert_eq!(code, 3);
+    assert!(
+        message.contains("use coarser meshes") && !message.contains("--patches"),
+        "{message}"
+    );
+}
