@@ -12,7 +12,7 @@ const PREDICTED_FROM: u64 = 20_000_000;
 const LONG_ENOUGH: f64 = 0.1;
 const REHEARSED_ONE_IN: u64 = 40;
 /// With more points along an edge, or more pairs of points, a rehearsal takes these.
-const MOST_POINTS: u32 = 8;
+const MOST_POINTS: u32 = 16;
 const MOST_POINT_PAIRS: u32 = 4096;
 
 /// Patches, pairs, memory, disk and time of an estimation of which so many pairs are left, the
@@ -84,7 +84,7 @@ mod tests {
     fn rehearsals_are_short_whatever_is_asked_for() {
         let regular = |points| Estimator::Regular { points };
         assert_eq!(rehearsed(regular(3)), (regular(3), 1.0));
-        assert_eq!(rehearsed(regular(32)), (regular(8), 256.0));
+        assert_eq!(rehearsed(regular(32)), (regular(16), 16.0));
         let random = |pairs| Estimator::MonteCarlo {
             points: 4,
             pairs,
