@@ -151,3 +151,40 @@ fn too_many_patches(scene: &Scene) -> String {
     }
     .to_owned()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use radiosity_geometry::{DVec3, PolygonMesh, Shape, Surface};
+
+    const SCENE: &str = "[discretization]\ndivisions = 1\n[materials.m]\nreflectance = 0.5\n\
+        [[surfaces]]\nname = \"s\"\nmaterial = \"m\"\ntriangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\n";
+
+    #[test]
+    fn what_helps_a_mesh_is_not_what_helps_a_square() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("s.toml");
+        std::fs::write(&path, SCENE).unwrap();
+        let mut scene = radiosity_scene::load(&path).unwrap();
+        let said = |scene: &Scene| Error::of_mesh(scene, &MeshError::TooManyPatches).to_string();
+        let of_squares = said(&scene);
+        assert!(
+            of_squares.contains("the subdivision gives more than 1,048,576"),
+            "{of_squares}"
+        );
+        let mesh = PolygonMesh {
+            positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+            faces: vec![vec![0, 1, 2]; (1 << 20) + 1],
+        };
+        scene.geometry = vec![Surface {
+            shape: Shape::Mesh(mesh),
+            divisions: None,
+        }];
+        let of_mesh = said(&scene);
+        assert!(of_mesh.contains("coarser meshes"), "{of_mesh}");
+        assert!(
+            !of_mesh.contains("subdivision") && !of_mesh.contains("--patches"),
+            "{of_mesh}"
+        );
+    }
+}

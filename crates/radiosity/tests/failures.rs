@@ -182,18 +182,3 @@ fn limits_of_the_process_are_limits_of_memory() {
     let (code, message) = run(300_000, &solve.replace("150", "20"));
     assert_eq!(code, Some(0), "{message}");
 }
-
-/// What helps a mesh is another than what helps a square.
-#[test]
-fn meshes_that_are_too_large_are_told_what_helps() {
-    let place = Place::new();
-    let mut obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\n".to_owned();
-    obj += &"f 1 2 3\n".repeat((1 << 20) + 1);
-    place.write("block.obj", &obj);
-    let (code, message) = place.fail("check room.toml");
-    assert_eq!(code, 3);
-    assert!(
-        message.contains("use coarser meshes") && !message.contains("--patches"),
-        "{message}"
-    );
-}
