@@ -26,6 +26,8 @@ pub(crate) struct Needs {
 const BYTES_OF_PROGRAM: u64 = 7_000_000;
 /// Patch with its face, materials and radiosities, twice over for what is passed on.
 const BYTES_PER_PATCH: u64 = 2048;
+/// An undivided face with its share of what rays and tiles need, as measured on meshes.
+const BYTES_PER_FACE: u64 = 2800;
 /// A point with the area it stands for.
 const BYTES_PER_POINT: u64 = 32;
 /// What the accurate estimator stores of a patch, in points.
@@ -48,7 +50,10 @@ impl Needs {
             faces,
             pairs,
             matrices: 1,
-            memory: BYTES_OF_PROGRAM + matrix + per_patch * patches as u64,
+            memory: BYTES_OF_PROGRAM
+                + matrix
+                + per_patch * patches as u64
+                + BYTES_PER_FACE * faces as u64,
             disk: matrix + 48 * patches as u64,
         }
     }
