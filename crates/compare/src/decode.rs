@@ -1,6 +1,7 @@
 //! Pictures from files' bytes: EXR, HDR, PFM, PPM and PNG, as linear radiance.
 
 use crate::portable;
+use crate::size::{PER_BYTE, SizeError, check_size};
 use image::codecs::hdr::HdrDecoder;
 use image::{ImageDecoder, ImageError};
 use radiosity_renderer::{Image, Transfer};
@@ -36,6 +37,9 @@ pub enum DecodeError {
     /// OpenEXR, which this build does not read.
     #[error("is an OpenEXR file, which this build does not read: build with the feature `openexr`")]
     LeftOut,
+    /// A picture of no pixels, or of too many for its file.
+    #[error("{0}")]
+    Size(#[from] SizeError),
     /// A known format with something wrong in it.
     #[error("is not a good {format} file: {problem}")]
     Broken {
@@ -63,8 +67,12 @@ pub fn decode_picture(bytes: &[u8], screen: &Screen) -> Result<Decoded, DecodeEr
         image,
         levels: false,
     };
+    let shown = |image| Decoded {
+        image,
+        levels: true,
+    };
     if bytes.starts_with(PNG) {
-        png_levels(bytes, screen)
+        png_radiance(bytes, screen).map(shown)
     } else if bytes.starts_with(EXR) {
         #[cfg(feature = "openexr")]
         return exr_radiance(bytes).map(linear);
@@ -75,74 +83,61 @@ pub fn decode_picture(bytes: &[u8], screen: &Screen) -> Result<Decoded, DecodeEr
     } else if bytes.starts_with(b"PF") || bytes.starts_with(b"Pf") {
         portable::float_map(bytes).map(linear)
     } else if bytes.starts_with(b"P3") || bytes.starts_with(b"P6") {
-        let levels = portable::levels(bytes)?;
-        let radiance = |level| screen.radiance(level, None);
-        Ok(levels.map(radiance))
+        portable::pixmap(bytes, |level| screen.radiance(level, None)).map(shown)
     } else {
         Err(DecodeError::Unknown)
     }
 }
 
-/// A picture of levels between 0 and 1.
-pub(crate) struct Levels {
-    pub(crate) width: u32,
-    pub(crate) height: u32,
-    pub(crate) pixels: Vec<[f64; 3]>,
-}
-
-impl Levels {
-    fn map(self, radiance: impl Fn(f64) -> f32) -> Decoded {
-        let pixels = self.pixels.into_iter();
-        Decoded {
-            image: Image {
-                width: self.width,
-                height: self.height,
-                pixels: pixels.map(|pixel| pixel.map(&radiance)).collect(),
-            },
-            levels: true,
-        }
-    }
-}
-
-fn png_levels(bytes: &[u8], screen: &Screen) -> Result<Decoded, DecodeError> {
+fn png_radiance(bytes: &[u8], screen: &Screen) -> Result<Image, DecodeError> {
     let broken = |error: png::DecodingError| DecodeError::Broken {
         format: "PNG",
         problem: error.to_string(),
     };
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::EXPAND);
+    // Of no use here, and packed as well.
+    decoder.set_ignore_text_chunk(true);
+    decoder.set_ignore_iccp_chunk(true);
     let mut reader = decoder.read_info().map_err(broken)?;
-    let gamma = reader.info().gamma();
-    let gamma = gamma.map(|g| 1.0 / f64::from(g.into_value()));
-    let own = match reader.info().srgb {
-        Some(_) => Some(Transfer::Srgb),
-        None => gamma.filter(|gamma| gamma.is_finite()).map(Transfer::Gamma),
-    };
+    let own = own_transfer(reader.info());
     let (width, height) = (reader.info().width, reader.info().height);
-    check_size("PNG", width.into(), height.into())?;
+    check_size((width.into(), height.into()), bytes, PER_BYTE)?;
     let size = reader.output_buffer_size().ok_or(DecodeError::Unknown)?;
     let mut data = vec![0; size];
     let info = reader.next_frame(&mut data).map_err(broken)?;
-    let samples: Vec<f64> = match info.bit_depth {
-        png::BitDepth::Sixteen => {
-            let words = data.as_chunks::<2>().0.iter();
-            words
-                .map(|&word| f64::from(u16::from_be_bytes(word)) / 65535.0)
-                .collect()
-        }
-        _ => data.iter().map(|&byte| f64::from(byte) / 255.0).collect(),
+    let levels: fn(&[u8]) -> f64 = match info.bit_depth {
+        png::BitDepth::Sixteen => |two| f64::from(u16::from_be_bytes([two[0], two[1]])) / 65535.0,
+        _ => |one| f64::from(one[0]) / 255.0,
+    };
+    let sample_size = if info.bit_depth == png::BitDepth::Sixteen {
+        2
+    } else {
+        1
     };
     let channels = info.color_type.samples();
-    let pixel = |samples: &[f64]| match channels {
-        1 | 2 => [samples[0]; 3],
-        _ => [samples[0], samples[1], samples[2]],
+    let pixel = |samples: &[u8]| {
+        let channel = |c: usize| screen.radiance(levels(&samples[c * sample_size..]), own);
+        match channels {
+            1 | 2 => [channel(0); 3],
+            _ => [0, 1, 2].map(channel),
+        }
     };
-    let levels = Levels {
+    let pixels = data.chunks_exact(channels * sample_size);
+    Ok(Image {
         width,
         height,
-        pixels: samples.chunks_exact(channels).map(pixel).collect(),
-    };
-    Ok(levels.map(|level| screen.radiance(level, own)))
+        pixels: pixels.map(pixel).collect(),
+    })
+}
+
+/// The curve that a PNG says it has.
+fn own_transfer(info: &png::Info<'_>) -> Option<Transfer> {
+    let gamma = info.gamma().map(|g| 1.0 / f64::from(g.into_value()));
+    match info.srgb {
+        Some(_) => Some(Transfer::Srgb),
+        None => gamma.filter(|gamma| gamma.is_finite()).map(Transfer::Gamma),
+    }
 }
 
 #[cfg(feature = "openexr")]
@@ -155,7 +150,8 @@ fn exr_radiance(bytes: &[u8]) -> Result<Image, DecodeError> {
     let meta = exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false);
     for header in meta.map_err(broken)?.headers {
         let size = header.layer_size;
-        check_size("OpenEXR", size.width() as u64, size.height() as u64)?;
+        check_size((size.width() as u64, size.height() as u64), bytes, PER_BYTE)?;
+        check_blocks(&header, bytes)?;
     }
     let set = |image: &mut Image, at: exr::math::Vec2<usize>, (r, g, b): (f32, f32, f32)| {
         let index = at.y() * image.width as usize + at.x();
@@ -176,6 +172,25 @@ fn exr_radiance(bytes: &[u8]) -> Result<Image, DecodeError> {
     Ok(image.layer_data.channel_data.pixels)
 }
 
+/// Pictures are unpacked block by block, of which a small one may claim to have large ones, or ones of
+/// many channels; by three channels a pixel is counted.
+#[cfg(feature = "openexr")]
+fn check_blocks(header: &exr::meta::header::Header, bytes: &[u8]) -> Result<(), DecodeError> {
+    let size = header.max_block_pixel_size();
+    let pixels_wide = size.width() * header.channels.list.len().div_ceil(3);
+    let checked = check_size((pixels_wide as u64, size.height() as u64), bytes, PER_BYTE);
+    checked.map_err(|_| DecodeError::Broken {
+        format: "OpenEXR",
+        problem: format!(
+            "its blocks of {} x {} pixels with {} channels are too large for a file of {} bytes",
+            size.width(),
+            size.height(),
+            header.channels.list.len(),
+            bytes.len()
+        ),
+    })
+}
+
 fn hdr_radiance(bytes: &[u8]) -> Result<Image, DecodeError> {
     let broken = |error: ImageError| DecodeError::Broken {
         format: "HDR",
@@ -183,30 +198,9 @@ fn hdr_radiance(bytes: &[u8]) -> Result<Image, DecodeError> {
     };
     let decoder = HdrDecoder::new(Cursor::new(bytes)).map_err(broken)?;
     let (width, height) = decoder.dimensions();
-    check_size("HDR", width.into(), height.into())?;
-    let mut data = vec![0; 12 * width as usize * height as usize];
-    decoder.read_image(&mut data).map_err(broken)?;
-    let pixels = data.as_chunks::<12>().0.iter();
-    let channel =
-        |bytes: &[u8; 12], c: usize| f32::from_ne_bytes([0, 1, 2, 3].map(|k| bytes[4 * c + k]));
-    Ok(Image {
-        width,
-        height,
-        pixels: pixels.map(|p| [0, 1, 2].map(|c| channel(p, c))).collect(),
-    })
-}
-
-/// Larger pictures are refused before memory is taken for them.
-const MAX_PIXELS: u64 = 1 << 28;
-
-/// Refuses pictures without pixels, or with more than memory is taken for.
-pub(crate) fn check_size(format: &'static str, width: u64, height: u64) -> Result<(), DecodeError> {
-    let pixels = width.checked_mul(height);
-    match pixels {
-        Some(1..=MAX_PIXELS) => Ok(()),
-        _ => Err(DecodeError::Broken {
-            format,
-            problem: format!("{width} x {height} pixels are none, or too many"),
-        }),
-    }
+    check_size((width.into(), height.into()), bytes, PER_BYTE)?;
+    let mut image = Image::black(width, height);
+    let data = bytemuck::cast_slice_mut(&mut image.pixels);
+    decoder.read_image(data).map_err(broken)?;
+    Ok(image)
 }

@@ -36,11 +36,17 @@ pub struct Percentiles {
 /// Collects weighted differences.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Differences {
+    /// The sum of the weights.
+    weight: f64,
+    /// Weighted sums, of the reference and of the first two powers of differences.
     reference: f64,
+    sum: f64,
+    squares: f64,
     /// Weighted squares of the reference's standard errors.
     noise: Option<f64>,
-    /// Difference and weight of each value.
-    differences: Vec<(f64, f64)>,
+    /// Size and weight of each difference. There are as many as values, and single precision is
+    /// enough to put them in order.
+    sizes: Vec<(f32, f32)>,
 }
 
 impl Errors {
@@ -53,9 +59,25 @@ impl Errors {
 }
 
 impl Differences {
+    pub(crate) fn with_capacity(values: usize) -> Differences {
+        Differences {
+            sizes: Vec::with_capacity(values),
+            ..Differences::default()
+        }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.sizes.len()
+    }
+
     pub(crate) fn add(&mut self, weight: f64, reference: f64, found: f64) {
+        let difference = found - reference;
+        self.weight += weight;
         self.reference += weight * reference;
-        self.differences.push((found - reference, weight));
+        self.sum += weight * difference;
+        self.squares += weight * difference * difference;
+        let size = (difference.abs() as f32).min(f32::MAX);
+        self.sizes.push((size, weight as f32));
     }
 
     /// Tells the standard error of a reference that was added.
@@ -63,60 +85,62 @@ impl Differences {
         *self.noise.get_or_insert_default() += weight * standard_error.powi(2);
     }
 
-    pub(crate) fn append(&mut self, other: &Differences) {
+    pub(crate) fn append(&mut self, mut other: Differences) {
+        self.weight += other.weight;
         self.reference += other.reference;
+        self.sum += other.sum;
+        self.squares += other.squares;
         if let Some(noise) = other.noise {
             *self.noise.get_or_insert_default() += noise;
         }
-        self.differences.extend_from_slice(&other.differences);
+        if self.sizes.capacity() == 0 {
+            // A copy would take as much memory again.
+            self.sizes = other.sizes;
+        } else {
+            self.sizes.append(&mut other.sizes);
+        }
     }
 
     /// `None` where there is no value, or where the reference is dark: nothing is a percentage
     /// of zero.
-    pub(crate) fn errors(&self) -> Option<Errors> {
-        let weight: f64 = self.differences.iter().map(|(_, weight)| weight).sum();
+    pub(crate) fn errors(&mut self) -> Option<Errors> {
+        let weight = self.weight;
         let mean = self.reference / weight;
-        if self.differences.is_empty() || mean.is_nan() || mean <= 0.0 {
+        if self.sizes.is_empty() || mean.is_nan() || mean <= 0.0 {
             return None;
         }
-        let mean_of = |power: i32| {
-            let terms = self.differences.iter();
-            terms.map(|(d, w)| w * d.powi(power)).sum::<f64>() / weight
-        };
         let percent = 100.0 / mean;
         Some(Errors {
-            rmse_percent: percent * mean_of(2).sqrt(),
-            bias_percent: percent * mean_of(1),
+            rmse_percent: percent * (self.squares / weight).sqrt(),
+            bias_percent: percent * self.sum / weight,
             noise_percent: self.noise.map(|sum| percent * (sum / weight).sqrt()),
-            percentiles: self.percentiles(percent, weight),
-            values: self.differences.len(),
+            percentiles: self.percentiles(percent),
+            values: self.sizes.len(),
         })
     }
 
-    fn percentiles(&self, scale: f64, total_weight: f64) -> Percentiles {
-        let mut sizes: Vec<(f64, f64)> = self
-            .differences
-            .iter()
-            .map(|(d, w)| (d.abs() * scale, *w))
-            .collect();
-        sizes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    /// Sorts in place, for the same reason.
+    fn percentiles(&mut self, scale: f64) -> Percentiles {
+        self.sizes.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let weights = self.sizes.iter().map(|&(_, weight)| f64::from(weight));
+        let total: f64 = weights.sum();
+        let mut sizes = self.sizes.iter();
         let mut below = 0.0;
-        let cumulative: Vec<f64> = sizes
-            .iter()
-            .map(|(_, weight)| {
-                below += weight;
-                below
-            })
-            .collect();
-        let at = |share: f64| {
-            let index = cumulative.partition_point(|&sum| sum < share * total_weight);
-            sizes[index.min(sizes.len() - 1)].0
+        let mut last = 0.0;
+        let mut at = |share: f64| {
+            while below < share * total
+                && let Some(&(size, weight)) = sizes.next()
+            {
+                below += f64::from(weight);
+                last = f64::from(size) * scale;
+            }
+            last
         };
         Percentiles {
             p50: at(0.5),
             p90: at(0.9),
             p99: at(0.99),
-            max: sizes[sizes.len() - 1].0,
+            max: at(f64::INFINITY),
         }
     }
 }
@@ -146,9 +170,10 @@ mod tests {
         ));
         let without = (0.1575 / 1.5_f64.powi(2) - noise_squared).sqrt();
         assert!(close(errors.rmse_percent_without_noise(), 100.0 * without));
-        assert!(close(errors.percentiles.p50, 20.0));
-        assert!(close(errors.percentiles.p90, 40.0));
-        assert!(close(errors.percentiles.max, 40.0));
+        let single = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-7;
+        assert!(single(errors.percentiles.p50, 20.0));
+        assert!(single(errors.percentiles.p90, 40.0));
+        assert!(single(errors.percentiles.max, 40.0));
         assert_eq!(errors.values, 2);
     }
 

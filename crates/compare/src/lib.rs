@@ -14,7 +14,9 @@ mod errors;
 mod pictures;
 mod portable;
 mod regions;
+mod size;
 mod table;
+mod table_name;
 mod tables;
 
 pub use decode::{DecodeError, Decoded, Screen, decode_picture};
@@ -22,5 +24,7 @@ pub use difference::{DifferencePicture, difference_picture};
 pub use errors::{Errors, Percentiles};
 pub use pictures::{PictureError, compare_pictures};
 pub use regions::{Regions, RegionsError, decode_regions};
+pub use size::SizeError;
 pub use table::{Row, Table, TableError, parse_table};
+pub use table_name::table_name;
 pub use tables::{Cell, compare_tables};

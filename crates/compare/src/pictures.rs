@@ -54,24 +54,20 @@ pub fn compare_pictures(
     } else {
         1.0
     };
-    let mut by_label: BTreeMap<u8, Differences> = BTreeMap::new();
+    let label_of = |index: usize| regions.map_or(0, |regions| regions.labels[index]);
+    let clamped = |&radiance: &f32| exposure * f64::from(radiance) > brightest;
+    let mut by_label = empty(reference.image.pixels.len(), label_of);
     let pairs = found.pixels.iter().zip(&reference.image.pixels);
     for (index, (found, reference)) in pairs.enumerate() {
-        let clamped = |&radiance: &f32| exposure * f64::from(radiance) > brightest;
         if reference.iter().any(clamped) {
             continue;
         }
-        let label = regions.map_or(0, |regions| regions.labels[index]);
-        let differences = by_label.entry(label).or_default();
+        let differences = by_label.entry(label_of(index)).or_default();
         for (&found, &reference) in found.iter().zip(reference) {
             differences.add(1.0, f64::from(reference), f64::from(found));
         }
     }
-    let named = name_regions(&by_label, regions.is_some());
-    let errors = named
-        .into_iter()
-        .filter_map(|(name, d)| Some((name, d.errors()?)));
-    let errors: Vec<(String, Errors)> = errors.collect();
+    let errors = by_region(by_label, regions.is_some());
     let whole = errors.last().is_some_and(|(name, _)| name == "all");
     if whole {
         Ok(errors)
@@ -80,23 +76,40 @@ pub fn compare_pictures(
     }
 }
 
-fn name_regions(by_label: &BTreeMap<u8, Differences>, is_map: bool) -> Vec<(String, Differences)> {
-    let mut named = Vec::new();
-    if is_map {
-        let alone = by_label.iter();
-        named.extend(alone.map(|(label, d)| (label.to_string(), d.clone())));
-    }
-    let mut sum = Differences::default();
-    let first = by_label.keys().next();
-    for (index, (label, differences)) in by_label.iter().enumerate() {
+/// Room for the differences of each region, and no more: it is most of what a comparison takes.
+fn empty(pixels: usize, label_of: impl Fn(usize) -> u8) -> BTreeMap<u8, Differences> {
+    let mut counts: BTreeMap<u8, usize> = BTreeMap::new();
+    (0..pixels).for_each(|index| *counts.entry(label_of(index)).or_default() += 1);
+    let labels = counts.into_iter();
+    labels
+        .map(|(label, pixels)| (label, Differences::with_capacity(3 * pixels)))
+        .collect()
+}
+
+/// The errors of every region, of all up to one, and of all.
+fn by_region(by_label: BTreeMap<u8, Differences>, is_map: bool) -> Vec<(String, Errors)> {
+    let (mut alone, mut joined) = (Vec::new(), Vec::new());
+    let first = by_label.keys().next().copied().unwrap_or(0);
+    let last = by_label.keys().next_back().copied();
+    let values = by_label.values().map(Differences::len).sum();
+    let mut sum = if is_map {
+        Differences::with_capacity(values)
+    } else {
+        Differences::default()
+    };
+    for (label, mut differences) in by_label {
+        if is_map {
+            alone.push((label.to_string(), differences.errors()));
+        }
         sum.append(differences);
-        if 0 < index && index + 1 < by_label.len() {
-            let first = first.expect("there is this one at least");
-            named.push((format!("{first}-{label}"), sum.clone()));
+        if label != first && Some(label) != last {
+            joined.push((format!("{first}-{label}"), sum.errors()));
         }
     }
-    named.push(("all".to_owned(), sum));
-    named
+    joined.push(("all".to_owned(), sum.errors()));
+    let all = alone.into_iter().chain(joined);
+    all.filter_map(|(name, errors)| Some((name, errors?)))
+        .collect()
 }
 
 fn check(found: &Image, reference: &Image, regions: Option<&Regions>) -> Result<(), PictureError> {

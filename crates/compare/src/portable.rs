@@ -1,7 +1,8 @@
 //! The portable formats: float maps (PF) and pixmaps (P3, P6), as the Netpbm manual and
 //! Debevec's PFM description define them.
 
-use crate::decode::{DecodeError, Levels, check_size};
+use crate::decode::DecodeError;
+use crate::size::{PER_BYTE, check_size};
 use radiosity_renderer::Image;
 
 const FLOAT_MAP: &str = "PFM";
@@ -44,8 +45,9 @@ pub(crate) fn float_map(bytes: &[u8]) -> Result<Image, DecodeError> {
     })
 }
 
-/// A pixmap, of text (P3) or of bytes (P6, two bytes a sample above 255 levels).
-pub(crate) fn levels(bytes: &[u8]) -> Result<Levels, DecodeError> {
+/// A pixmap, of text (P3) or of bytes (P6, two bytes a sample above 255 levels), with the radiance of
+/// levels between 0 and 1.
+pub(crate) fn pixmap(bytes: &[u8], radiance: impl Fn(f64) -> f32) -> Result<Image, DecodeError> {
     let broken = |problem: &str| broken(PIXMAP, problem);
     let mut header = Header::new(bytes);
     let plain = header.token() == Some("P3");
@@ -71,12 +73,12 @@ pub(crate) fn levels(bytes: &[u8]) -> Result<Levels, DecodeError> {
     if samples.iter().any(|&sample| sample > brightest) {
         return Err(broken("a sample is brighter than the brightest level"));
     }
-    let level = |sample: u16| f64::from(sample) / f64::from(brightest);
+    let of_sample = |sample: u16| radiance(f64::from(sample) / f64::from(brightest));
     let triples = samples.as_chunks::<3>().0.iter();
-    Ok(Levels {
+    Ok(Image {
         width,
         height,
-        pixels: triples.map(|triple| triple.map(level)).collect(),
+        pixels: triples.map(|triple| triple.map(of_sample)).collect(),
     })
 }
 
@@ -93,12 +95,13 @@ fn wrong_length(expected: usize, found: usize) -> String {
 
 /// Words apart by white space; `#` begins a comment that ends with the line.
 struct Header<'a> {
+    bytes: &'a [u8],
     rest: &'a [u8],
 }
 
 impl<'a> Header<'a> {
     fn new(bytes: &'a [u8]) -> Header<'a> {
-        Header { rest: bytes }
+        Header { bytes, rest: bytes }
     }
 
     fn token(&mut self) -> Option<&'a str> {
@@ -123,8 +126,9 @@ impl<'a> Header<'a> {
 
     fn size(&mut self, format: &'static str) -> Result<(u32, u32), DecodeError> {
         let size = self.number().zip(self.number());
-        let (width, height) = size.ok_or_else(|| broken(format, "it has no width and height"))?;
-        check_size(format, u64::from(width), u64::from(height))?;
+        let (width, height): (u32, u32) =
+            size.ok_or_else(|| broken(format, "it has no width and height"))?;
+        check_size((width.into(), height.into()), self.bytes, PER_BYTE)?;
         Ok((width, height))
     }
 

@@ -1,5 +1,6 @@
 //! Radiosities by patch, as CSV.
 
+use crate::table_name::{name_in_table, table_name};
 use std::collections::{HashMap, HashSet};
 
 /// One patch of a table.
@@ -79,7 +80,7 @@ impl Table {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(&COLUMNS[..columns]).expect(in_memory);
         for row in &self.rows {
-            let mut record = vec![row.surface.clone()];
+            let mut record = vec![table_name(&row.surface).into_owned()];
             record.extend(row.cell.map(|index| index.to_string()));
             record.extend(row.radiosity.map(|b| (b as f32).to_string()));
             let errors = row.standard_error.filter(|_| has_errors);
@@ -149,7 +150,8 @@ const COLUMNS: [&str; 9] = [
 /// How many columns a table has that does not tell of errors.
 const WITHOUT_ERRORS: usize = 6;
 
-/// Reads a table: the columns `surface,ia,ib,B_r,B_g,B_b`, with or without `se_r,se_g,se_b`.
+/// Reads a table: the columns `surface,ia,ib,B_r,B_g,B_b`, with or without `se_r,se_g,se_b`. Names may
+/// have an apostrophe before them, as [`table_name`] says.
 pub fn parse_table(bytes: &[u8]) -> Result<Table, TableError> {
     let mut reader = csv::Reader::from_reader(bytes);
     let header = reader
@@ -202,7 +204,7 @@ fn parse_row(record: &csv::StringRecord) -> Result<Row, TableError> {
     let has_errors = record.len() > WITHOUT_ERRORS;
     Ok(Row {
         line,
-        surface: record[0].to_owned(),
+        surface: name_in_table(&record[0]).to_owned(),
         cell: [index(1)?, index(2)?],
         radiosity: numbers(3)?,
         standard_error: has_errors.then(|| numbers(6)).transpose()?,

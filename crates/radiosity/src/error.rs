@@ -1,8 +1,8 @@
 //! What can go wrong, for people and for exit codes.
 
 use radiosity_cache::CacheError;
-use radiosity_geometry::{LEAST_SIZE, MeshError};
-use radiosity_scene::{Scene, SceneError};
+use radiosity_geometry::{Divisions, LEAST_SIZE, MeshError, count_patches};
+use radiosity_scene::{Mode, Scene, SceneError};
 use radiosity_solver::SolveError;
 use std::path::PathBuf;
 
@@ -50,6 +50,9 @@ pub enum Error {
     /// The cache folder cannot be used.
     #[error("error: {0}\n   = help: choose another folder with --cache, or use --no-cache")]
     Cache(#[from] CacheError),
+    /// Nor can the one that a command is about, which cannot do without.
+    #[error("error: {0}\n   = help: choose another folder with --cache")]
+    CacheFolder(CacheError),
     /// A result cannot be written.
     #[error("error: cannot write {}: {error}", path.display())]
     Output {
@@ -65,7 +68,7 @@ impl Error {
     /// The exit code of the command.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Error::Cache(_) | Error::Output { .. } => 1,
+            Error::Cache(_) | Error::CacheFolder(_) | Error::Output { .. } => 1,
             Error::Scene(_)
             | Error::NoSuchScene { .. }
             | Error::NoCamera
@@ -102,12 +105,17 @@ impl Error {
                 name(surface),
                 LEAST_SIZE * largest,
             ),
-            other => other.to_string(),
+            MeshError::TooManyPatches => too_many_patches(scene),
+            MeshError::Empty => error.to_string(),
         })
     }
 
     /// Names the surfaces of the patches that a solver error is about.
-    pub(crate) fn of_solver(error: &SolveError, name_of: impl Fn(usize) -> String) -> Error {
+    pub(crate) fn of_solver(
+        error: &SolveError,
+        mode: Mode,
+        name_of: impl Fn(usize) -> String,
+    ) -> Error {
         match error {
             SolveError::Diverges { worst_patches, .. } => {
                 let mut names: Vec<String> = Vec::new();
@@ -119,9 +127,14 @@ impl Error {
                 let names = names.join("`, `");
                 Error::Unsolvable {
                     problem: format!("{error}; the worst rows belong to `{names}`"),
-                    remedy: "estimate the form factors with --mode accurate, or lower the \
+                    remedy: match mode {
+                        Mode::Accurate => "lower the reflectances there",
+                        Mode::Regular | Mode::MonteCarlo => {
+                            "estimate the form factors with --mode accurate, or lower the \
                              reflectances there"
-                        .to_owned(),
+                        }
+                    }
+                    .to_owned(),
                 }
             }
             SolveError::Worthless { .. } => Error::Unsolvable {
@@ -135,5 +148,58 @@ impl Error {
                 }
             }
         }
+    }
+}
+
+/// Cutting surfaces less helps, unless there are as many before anything is cut.
+fn too_many_patches(scene: &Scene) -> String {
+    match count_patches(&scene.undivided(), Divisions::uniform(1)) {
+        Err(MeshError::TooManyPatches) => {
+            "the scene has more than 1,048,576 faces, each of which is a patch at least\n   \
+             = help: use coarser meshes, or split the scene"
+        }
+        _ => {
+            "the subdivision gives more than 1,048,576 patches\n   \
+             = help: cut surfaces less (--patches, or a larger --max-patch-edge or `divisions` of \
+             surfaces)"
+        }
+    }
+    .to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use radiosity_geometry::{DVec3, PolygonMesh, Shape, Surface};
+
+    const SCENE: &str = "[discretization]\ndivisions = 1\n[materials.m]\nreflectance = 0.5\n\
+        [[surfaces]]\nname = \"s\"\nmaterial = \"m\"\ntriangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\n";
+
+    #[test]
+    fn what_helps_a_mesh_is_not_what_helps_a_square() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("s.toml");
+        std::fs::write(&path, SCENE).unwrap();
+        let mut scene = radiosity_scene::load(&path).unwrap();
+        let said = |scene: &Scene| Error::of_mesh(scene, &MeshError::TooManyPatches).to_string();
+        let of_squares = said(&scene);
+        assert!(
+            of_squares.contains("the subdivision gives more than 1,048,576"),
+            "{of_squares}"
+        );
+        let mesh = PolygonMesh {
+            positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+            faces: vec![vec![0, 1, 2]; (1 << 20) + 1],
+        };
+        scene.geometry = vec![Surface {
+            shape: Shape::Mesh(mesh),
+            divisions: None,
+        }];
+        let of_mesh = said(&scene);
+        assert!(of_mesh.contains("coarser meshes"), "{of_mesh}");
+        assert!(
+            !of_mesh.contains("subdivision") && !of_mesh.contains("--patches"),
+            "{of_mesh}"
+        );
     }
 }

@@ -6,10 +6,12 @@
 use crate::error::Error;
 use crate::export::{faces_in_input_order, input_order};
 use crate::resources::check_parts;
+use radiosity_compare::table_name;
 use radiosity_form_factors::{FormFactors, LumpedFactors, RowFacts};
 use radiosity_geometry::{Face, Mesh};
 use radiosity_scene::Scene;
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
@@ -32,8 +34,8 @@ pub struct FactorTable<'a> {
 
 /// What is known of a row beside its entries.
 struct TableRow<'a> {
-    /// The surface or group.
-    name: &'a str,
+    /// The surface or group, as tables have it.
+    name: Cow<'a, str>,
     /// Of patches.
     cell: Option<[u32; 2]>,
     area: f64,
@@ -62,10 +64,17 @@ impl<'a> FactorTable<'a> {
         form_factors: &'a FormFactors,
         by: By,
     ) -> Result<FactorTable<'a>, Error> {
-        let name_of: fn(&'a Scene, &Face) -> &'a str = match by {
+        type Name<'a> = fn(&'a Scene, &Face) -> &'a str;
+        let (name_of, remedy): (Name<'a>, _) = match by {
             By::Patch => return Ok(FactorTable::of_patches(scene, mesh, form_factors)),
-            By::Surface => |scene, face| &scene.surfaces[face.surface.index()].name,
-            By::Group => |scene, face| scene.group(face.surface, face.input_index),
+            By::Surface => (
+                |scene, face| &scene.surfaces[face.surface.index()].name,
+                "export them --by patch, or put surfaces into groups and export --by group",
+            ),
+            By::Group => (
+                |scene, face| scene.group(face.surface, face.input_index),
+                "export them --by patch, or put surfaces into fewer groups",
+            ),
         };
         let mut names: Vec<&str> = Vec::new();
         let mut part_of_name = BTreeMap::new();
@@ -80,10 +89,10 @@ impl<'a> FactorTable<'a> {
             });
             part_of[face.patches()].fill(part);
         }
-        check_parts(names.len())?;
+        check_parts(names.len(), remedy)?;
         let lumped = form_factors.lumped(&part_of, names.len());
         let row = |(part, name)| TableRow {
-            name,
+            name: table_name(name),
             cell: None,
             area: lumped.areas[part],
             facts: lumped.rows[part],
@@ -97,7 +106,7 @@ impl<'a> FactorTable<'a> {
     fn of_patches(scene: &'a Scene, mesh: &Mesh, form_factors: &'a FormFactors) -> FactorTable<'a> {
         let order = input_order(scene, mesh);
         let row = |&(patch, cell): &(usize, [u32; 2])| TableRow {
-            name: &scene.surfaces[mesh.patches[patch].surface.index()].name,
+            name: table_name(&scene.surfaces[mesh.patches[patch].surface.index()].name),
             cell: Some(cell),
             area: form_factors.areas[patch],
             facts: form_factors.rows[patch],
@@ -173,7 +182,7 @@ impl<'a> FactorTable<'a> {
                         file.write_record([i.to_string(), j.to_string(), factor.to_string()])?;
                     }
                     Entries::OfParts(lumped) => {
-                        let [from, to] = [i, j].map(|part| self.rows[part].name);
+                        let [from, to] = [i, j].map(|part| &*self.rows[part].name);
                         let factor = format!("{:.9e}", lumped.factor(i, j));
                         file.write_record([from, to, &factor, &short(lumped.error(i, j))])?;
                     }
@@ -207,7 +216,7 @@ impl<'a> FactorTable<'a> {
         file.write_record(columns)?;
         for (k, row) in self.rows.iter().enumerate() {
             let facts = &row.facts;
-            let mut record = vec![k.to_string(), row.name.to_owned()];
+            let mut record = vec![k.to_string(), row.name.to_string()];
             record.extend(
                 row.cell
                     .into_iter()

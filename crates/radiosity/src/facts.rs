@@ -4,6 +4,7 @@ use crate::export::faces_in_input_order;
 use crate::rows::RowSummary;
 use radiosity_form_factors::{Classes, ClosureFacts, Estimator, FormFactors, RowFacts};
 use radiosity_geometry::{Face, Mesh};
+use radiosity_matrix::packed_len;
 use radiosity_solver::Convergence;
 use serde::{Deserialize, Serialize};
 
@@ -72,6 +73,24 @@ impl FactorFacts {
         }
     }
 
+    /// Whether they fit together, and to so many values, as facts of a program that is right do: whoever
+    /// wrote a file, reading it must not fail later. Factors that are no numbers make sums of rows that
+    /// are none, so the matrix itself need not be looked through.
+    pub(crate) fn are_sound(&self, values: usize) -> bool {
+        let patches = self.rows.len();
+        let counts = self
+            .patches_of_surfaces
+            .iter()
+            .map(|&count| u64::from(count));
+        packed_len(patches) == values
+            && counts.sum::<u64>() == patches as u64
+            && self.exported_as.len() == patches
+            && self.areas.len() == patches
+            && self.areas.iter().all(|area| area.is_finite())
+            && self.exported_as.iter().all(|&row| (row as usize) < patches)
+            && self.rows.iter().all(is_finite)
+    }
+
     /// The surface of a patch, by its number in the scene.
     pub(crate) fn surface_of(&self, patch: usize) -> usize {
         let mut end = 0;
@@ -81,6 +100,33 @@ impl FactorFacts {
         });
         ends.take_while(|&end| end <= patch).count()
     }
+}
+
+impl SolutionFacts {
+    /// The same, of a solution and its values.
+    pub(crate) fn are_sound(&self, values: &[f32]) -> bool {
+        let (patches, lights) = (self.visible.len(), self.lights.len());
+        let numbers = values.iter().chain(&self.visible);
+        values.len() == 6 * lights * patches
+            && numbers.copied().all(f32::is_finite)
+            && self.report.energies.len() == lights
+            && self.rows.largest.1 < (patches as u64).max(1)
+    }
+}
+
+/// Whether everything that is known of a row is a number.
+pub(crate) fn is_finite(row: &RowFacts) -> bool {
+    let RowFacts {
+        fronts,
+        backs,
+        background,
+        rays_error,
+        visible,
+        error,
+        missed,
+    } = *row;
+    let known = [fronts, backs, background, rays_error, visible, missed];
+    known.into_iter().chain(error).all(f64::is_finite)
 }
 
 fn exported_as(mesh: &Mesh) -> Vec<u32> {

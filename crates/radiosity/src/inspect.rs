@@ -130,15 +130,21 @@ impl Inspection {
         };
         match &inspection.stage[..] {
             FORM_FACTORS | CLOSURE => {
-                let (facts, _) = opened.into_artifact()?.into_values()?;
+                let (facts, values) = opened.into_artifact::<FactorFacts>()?.into_values()?;
+                if !facts.are_sound(values.as_ref().len()) {
+                    return Err(Miss::Header);
+                }
                 inspection.form_factors = Some(FactorInspection::of(&facts, names));
             }
             SOLUTION => {
                 let artifact = opened.into_artifact::<SolutionFacts>()?;
                 let (facts, values) = artifact.into_values()?;
+                if !facts.are_sound(values.as_ref()) {
+                    return Err(Miss::Header);
+                }
                 let (report, lights) = (facts.report, facts.lights);
                 inspection.solution = Some(SolutionInspection {
-                    patches: values.as_ref().len() / 6 / lights.len().max(1),
+                    patches: facts.visible.len(),
                     lights,
                     sweeps: report.residuals.len(),
                     residual: report.residual,

@@ -17,6 +17,8 @@ use std::io::ErrorKind;
 pub(crate) struct Job<'a> {
     pub(crate) mesh: &'a Mesh,
     pub(crate) estimator: Estimator,
+    /// Whether they are closed afterwards.
+    pub(crate) closure: bool,
     pub(crate) observer: &'a dyn Observer,
 }
 
@@ -92,7 +94,11 @@ impl Job<'_> {
     }
 
     pub(crate) fn needs(&self) -> Needs {
-        Needs::of(self.mesh.patches.len(), self.estimator)
+        Needs::of(
+            self.mesh.patches.len(),
+            self.mesh.faces.len(),
+            self.estimator,
+        )
     }
 
     /// Says what lies ahead.
@@ -104,7 +110,8 @@ impl Job<'_> {
                 "an interrupted run has left {percent:.0} % of the form factors: only the others are computed"
             ));
         }
-        if let Some(prediction) = prediction(needs, left, estimation, self.estimator) {
+        let told = needs.with_closure(self.closure);
+        if let Some(prediction) = prediction(&told, left, estimation, self) {
             self.observer.note(&prediction);
         }
         self.observer.begin(Stage::FormFactors, needs.pairs);

@@ -36,6 +36,7 @@ mod facts;
 mod inspect;
 mod job;
 mod lines;
+mod machine;
 mod observer;
 mod pipeline;
 mod plot;

@@ -7,7 +7,7 @@ use crate::observer::Observer;
 use crate::rows::RowSummary;
 use crate::settings;
 use radiosity_cache::{Id, Key, Store};
-use radiosity_form_factors::{self as form_factors, FormFactors};
+use radiosity_form_factors::{self as form_factors, FormFactors, RowFacts};
 use radiosity_geometry::{self as geometry, Mesh};
 use radiosity_scene::{Material, Mode, Scene};
 use radiosity_solver::SolveError;
@@ -155,9 +155,24 @@ impl<'a> Pipeline<'a> {
         }
     }
 
+    /// Refuses form factors that are no numbers. A file of such rows is not taken from the cache either.
+    fn check_finite(&self, rows: &[RowFacts]) -> Result<(), Error> {
+        let bad = rows.iter().position(|row| !facts::is_finite(row));
+        bad.map_or(Ok(()), |patch| {
+            Err(Error::Unsolvable {
+                problem: format!(
+                    "the form factors of `{}` are no numbers",
+                    self.surface_name(patch)
+                ),
+                remedy: "use numbers of ordinary size in the scene".to_owned(),
+            })
+        })
+    }
+
     /// Names the surfaces that an error of the solver is about.
     fn of_solver(&self, error: &SolveError) -> Error {
-        Error::of_solver(error, |patch| self.surface_name(patch).to_owned())
+        let mode = self.scene.form_factors.mode;
+        Error::of_solver(error, mode, |patch| self.surface_name(patch).to_owned())
     }
 
     /// What each patch emits itself, with the lights as bright as the scene has them.

@@ -1,15 +1,19 @@
 //! What a long run will take, said before it begins.
 
+use crate::job::Job;
 use crate::resources::{Needs, bytes, duration, grouped};
 use radiosity_form_factors::{Estimation, Estimator};
 use std::time::Instant;
 
 /// Below this many pairs of points a prediction costs more than it is worth.
 const PREDICTED_FROM: u64 = 20_000_000;
-/// The share of a run that a prediction may cost, as one in so many, and the most pairs of
-/// points it tries: some tenths of a second's work.
+/// A rehearsal goes on until it has taken so many seconds, or done one in so many pairs: fewer may all
+/// be pairs that see nothing of each other.
+const LONG_ENOUGH: f64 = 0.1;
 const REHEARSED_ONE_IN: u64 = 40;
-const MOST_REHEARSED: u64 = 30_000_000;
+/// With more points along an edge, or more pairs of points, a rehearsal takes these.
+const MOST_POINTS: u32 = 16;
+const MOST_POINT_PAIRS: u32 = 4096;
 
 /// Patches, pairs, memory, disk and time of an estimation of which so many pairs are left, the
 /// time from a rehearsal; `None` if it will be over soon.
@@ -17,16 +21,16 @@ pub(crate) fn prediction(
     needs: &Needs,
     left: u64,
     estimation: &Estimation<'_>,
-    estimator: Estimator,
+    job: &Job<'_>,
 ) -> Option<String> {
-    let work = left.saturating_mul(estimator.point_pairs());
+    let work = left.saturating_mul(job.estimator.point_pairs());
     if work < PREDICTED_FROM {
         return None;
     }
-    let tried = (work / REHEARSED_ONE_IN).min(MOST_REHEARSED) / estimator.point_pairs();
-    let start = Instant::now();
-    let tried = estimation.rehearse(tried.max(2 * rayon::current_num_threads() as u64));
-    let seconds = start.elapsed().as_secs_f64() * left as f64 / tried as f64;
+    let (estimator, factor) = rehearsed(job.estimator);
+    let smaller = (factor > 1.0).then(|| Estimation::new(job.mesh, estimator));
+    let estimation = smaller.as_ref().unwrap_or(estimation);
+    let seconds = factor * left as f64 * seconds_per_pair(estimation, left);
     Some(format!(
         "{} patches, {} pairs: {} of memory, {} of disk, {}",
         grouped(needs.patches as u64),
@@ -35,4 +39,59 @@ pub(crate) fn prediction(
         bytes(needs.disk),
         duration(seconds),
     ))
+}
+
+/// An estimator that takes no longer than a rehearsal should, and how many times as long the other
+/// takes: as many as it has pairs of points.
+fn rehearsed(estimator: Estimator) -> (Estimator, f64) {
+    let smaller = match estimator {
+        Estimator::Regular { points } => Estimator::Regular {
+            points: points.min(MOST_POINTS),
+        },
+        Estimator::MonteCarlo {
+            points,
+            pairs,
+            seed,
+        } => Estimator::MonteCarlo {
+            points,
+            pairs: pairs.min(MOST_POINT_PAIRS),
+            seed,
+        },
+        Estimator::Accurate { .. } => estimator,
+    };
+    let pairs = |of: Estimator| of.point_pairs() as f64;
+    (smaller, pairs(estimator) / pairs(smaller))
+}
+
+fn seconds_per_pair(estimation: &Estimation<'_>, left: u64) -> f64 {
+    let mut wanted = 2 * rayon::current_num_threads() as u64;
+    loop {
+        let start = Instant::now();
+        let done = estimation.rehearse(wanted);
+        let seconds = start.elapsed().as_secs_f64();
+        if seconds >= LONG_ENOUGH || done >= left / REHEARSED_ONE_IN {
+            return seconds / done as f64;
+        }
+        wanted = 4 * done;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rehearsals_are_short_whatever_is_asked_for() {
+        let regular = |points| Estimator::Regular { points };
+        assert_eq!(rehearsed(regular(3)), (regular(3), 1.0));
+        assert_eq!(rehearsed(regular(32)), (regular(16), 16.0));
+        let random = |pairs| Estimator::MonteCarlo {
+            points: 4,
+            pairs,
+            seed: 1,
+        };
+        assert_eq!(rehearsed(random(1 << 20)), (random(1 << 12), 256.0));
+        let accurate = Estimator::Accurate { tolerance: 1e-6 };
+        assert_eq!(rehearsed(accurate), (accurate, 1.0));
+    }
 }

@@ -1,7 +1,7 @@
 //! What a run has to say, as lines for people and as JSON for scripts.
 
 use crate::artifact::{How, Origin};
-use crate::cli::terminal::{Terminal, say};
+use crate::cli::terminal::{Terminal, say_json};
 use crate::error::Error;
 use crate::lines::{
     class_line, closed_line, closure_line, error_line, indented, missed_line, row_line, scene_line,
@@ -176,7 +176,11 @@ impl<'a> Report<'a> {
                 pipeline.surface_name(patch as usize),
             )));
         }
-        let name = |surface: u32| pipeline.scene().surfaces[surface as usize].name.clone();
+        let surfaces = &pipeline.scene().surfaces;
+        let name = |surface: u32| match surfaces.get(surface as usize) {
+            Some(surface) => surface.name.clone(),
+            None => format!("surface {surface}"),
+        };
         for line in unbalanced_lines(rows, name) {
             self.terminal.line(&indented(&line));
         }
@@ -241,12 +245,12 @@ impl<'a> Report<'a> {
         self.json.outputs.insert(name.to_owned(), path);
     }
 
-    /// Prints the JSON object, if one is wanted.
+    /// Prints the JSON object, if one is wanted; an error if something could not be printed.
     pub(crate) fn finish(&self) -> Result<(), Error> {
-        if !self.terminal.json {
-            return Ok(());
+        if self.terminal.json {
+            say_json(&self.json)?;
         }
-        say(&serde_json::to_string(&self.json).expect("plain data always encodes"))
+        self.terminal.finish()
     }
 
     fn stage_line(&self, stage: &str, origin: &Origin) {

@@ -1,6 +1,7 @@
 //! What a run needs, and whether the machine has it.
 
 use crate::error::Error;
+use crate::machine::{free_disk, usable_memory};
 use radiosity_cache::Store;
 use radiosity_form_factors::Estimator;
 use radiosity_matrix::packed_len;
@@ -10,26 +11,32 @@ use std::path::Path;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Needs {
     pub(crate) patches: usize,
+    /// The fewest patches that the scene could have: one a face.
+    faces: usize,
     pub(crate) pairs: u64,
+    /// How many matrices are there at once.
+    matrices: u64,
     /// Bytes of memory at the peak.
     pub(crate) memory: u64,
     /// Bytes of the cached form factors.
     pub(crate) disk: u64,
 }
 
+/// The program itself.
+const BYTES_OF_PROGRAM: u64 = 7_000_000;
 /// Patch with its face, materials and radiosities, twice over for what is passed on.
 const BYTES_PER_PATCH: u64 = 2048;
+/// An undivided face with its share of what rays and tiles need, as measured on meshes.
+const BYTES_PER_FACE: u64 = 2800;
 /// A point with the area it stands for.
 const BYTES_PER_POINT: u64 = 32;
 /// What the accurate estimator stores of a patch, in points.
 const ACCURATE_POINTS: u64 = 48;
 /// Two linear images, as they are made and apart, and one of them shown and encoded.
 const BYTES_PER_PIXEL: u64 = 2 * 2 * 12 + 6 + 12;
-/// The share of the free memory that a run may take.
-const USABLE_SHARE: f64 = 0.9;
 
 impl Needs {
-    pub(crate) fn of(patches: usize, estimator: Estimator) -> Needs {
+    pub(crate) fn of(patches: usize, faces: usize, estimator: Estimator) -> Needs {
         let pairs = packed_len(patches) as u64;
         let matrix = 4 * pairs;
         let stored_points = match estimator {
@@ -40,9 +47,25 @@ impl Needs {
         let per_patch = BYTES_PER_PATCH + BYTES_PER_POINT * stored_points;
         Needs {
             patches,
+            faces,
             pairs,
-            memory: matrix + per_patch * patches as u64,
+            matrices: 1,
+            memory: BYTES_OF_PROGRAM
+                + matrix
+                + per_patch * patches as u64
+                + BYTES_PER_FACE * faces as u64,
             disk: matrix + 48 * patches as u64,
+        }
+    }
+
+    /// The same with form factors that are closed once they are estimated, if they are: both are kept.
+    pub(crate) fn with_closure(self, is_closed: bool) -> Needs {
+        let copies = u64::from(is_closed);
+        Needs {
+            matrices: self.matrices + copies,
+            memory: self.memory + copies * 4 * self.pairs,
+            disk: self.disk * (1 + copies),
+            ..self
         }
     }
 
@@ -72,12 +95,30 @@ impl Needs {
                     bytes(self.memory),
                     bytes(usable),
                 ),
-                remedy: format!(
-                    "use fewer patches (--patches, --max-patch-edge): about {} fit",
-                    grouped(two_digits((usable as f64 / 2.0).sqrt() as u64)),
-                ),
+                remedy: self.remedy(usable),
             }),
             _ => Ok(()),
+        }
+    }
+
+    /// What makes it fit into so much memory.
+    fn remedy(&self, usable: u64) -> String {
+        // Of n patches, 4 bytes for each of n (n - 1) / 2 pairs, and as many a patch as here.
+        let of_square = (2 * self.matrices) as f64;
+        let of_patches = self.memory - BYTES_OF_PROGRAM - 4 * self.matrices * self.pairs;
+        let half = of_patches as f64 / self.patches as f64 / of_square / 2.0 - 0.5;
+        let free = usable.saturating_sub(BYTES_OF_PROGRAM) as f64;
+        let fit = ((half * half + free / of_square).sqrt() - half) as u64;
+        let about = format!("about {} fit", grouped(two_digits(fit)));
+        if self.faces as u64 > fit {
+            format!(
+                "use coarser meshes, or split the scene: each of its {} faces is a patch at least, and {about}",
+                grouped(self.faces as u64)
+            )
+        } else {
+            format!(
+                "use fewer patches (--patches, or a larger --max-patch-edge or `divisions` of surfaces): {about}"
+            )
         }
     }
 }
@@ -98,8 +139,24 @@ pub(crate) fn check_image(width: u32, height: u32) -> Result<(), Error> {
     }
 }
 
+/// Refuses files that do not fit into memory.
+pub(crate) fn check_file(path: &Path, size: u64) -> Result<(), Error> {
+    match usable_memory() {
+        Some(usable) if size > usable => Err(Error::Resources {
+            problem: format!(
+                "{} has {}, but only {} of memory can be used",
+                path.display(),
+                bytes(size),
+                bytes(usable),
+            ),
+            remedy: "give a smaller file".to_owned(),
+        }),
+        _ => Ok(()),
+    }
+}
+
 /// Refuses a matrix between so many parts that does not fit into memory.
-pub(crate) fn check_parts(parts: usize) -> Result<(), Error> {
+pub(crate) fn check_parts(parts: usize, remedy: &str) -> Result<(), Error> {
     let needed = 8 * (parts as u64).pow(2);
     match usable_memory() {
         Some(usable) if needed > usable => Err(Error::Resources {
@@ -109,29 +166,10 @@ pub(crate) fn check_parts(parts: usize) -> Result<(), Error> {
                 bytes(needed),
                 bytes(usable),
             ),
-            remedy: "export them --by patch, or put surfaces into fewer groups".to_owned(),
+            remedy: remedy.to_owned(),
         }),
         _ => Ok(()),
     }
-}
-
-fn usable_memory() -> Option<u64> {
-    free_memory().map(|free| (free as f64 * USABLE_SHARE) as u64)
-}
-
-/// What the machine, or the container it runs in, has left; unknown on rare systems.
-fn free_memory() -> Option<u64> {
-    let mut system = sysinfo::System::new().ok()?;
-    system.refresh_memory();
-    let limit = system.cgroup_limits().map_or(u64::MAX, |c| c.free_memory);
-    Some(system.available_memory().min(limit))
-}
-
-/// Free bytes on the disk of a folder that need not exist yet.
-fn free_disk(folder: &Path) -> Option<u64> {
-    let existing = folder.ancestors().find(|f| f.exists());
-    let here = existing.unwrap_or(Path::new("."));
-    fs4::available_space(here).ok()
 }
 
 /// Rounded down to two digits: what an estimate deserves.
@@ -192,52 +230,4 @@ pub(crate) fn duration(seconds: f64) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn quantities_are_readable() {
-        assert_eq!([0, 7, 99, 105_701].map(two_digits), [0, 7, 99, 100_000]);
-        assert_eq!(
-            ["0", "999", "1,728", "1,492,128"],
-            [0, 999, 1728, 1_492_128].map(grouped)[..]
-        );
-        assert_eq!(
-            ["0 patches", "1 patch", "2,400 patches"],
-            [0, 1, 2400].map(|n| counted(n, PATCHES))[..]
-        );
-        let sizes = [12, 999, 1_000, 5_968_512, 123_456_789, 1_530_000_000].map(bytes);
-        assert_eq!(
-            sizes,
-            ["12 B", "999 B", "1.0 kB", "6.0 MB", "123 MB", "1.5 GB"]
-        );
-        let times = [0.1, 7.4, 600.0, 9000.0].map(duration);
-        assert_eq!(
-            times,
-            ["under a second", "about 7 s", "about 10 min", "about 2.5 h"]
-        );
-    }
-
-    #[test]
-    fn impossible_runs_are_refused_with_a_remedy() {
-        let needs = |patches, points| Needs::of(patches, Estimator::Regular { points });
-        let error = needs(1 << 20, 3).check_memory().unwrap_err().to_string();
-        assert!(
-            error.contains("1,048,576 patches need 2.2 TB of memory"),
-            "{error}"
-        );
-        assert!(error.contains("use fewer patches"), "{error}");
-        assert!(needs(100, 3).check_memory().is_ok());
-        assert!(needs(4000, 64).memory > 500_000_000, "points count too");
-        let error = check_parts(1 << 20).unwrap_err().to_string();
-        assert!(
-            error.contains("8.8 TB") && error.contains("--by"),
-            "{error}"
-        );
-        let error = check_image(1 << 16, 1 << 16).unwrap_err().to_string();
-        assert!(
-            error.contains("283 GB") && error.contains("--size"),
-            "{error}"
-        );
-    }
-}
+mod tests;

@@ -131,3 +131,70 @@ fn what_cannot_be_compared_is_said() {
         );
     }
 }
+
+/// Opening a pipe waits for a writer, and a device does not end.
+#[cfg(unix)]
+#[test]
+fn what_is_no_regular_file_is_refused() {
+    let place = Place::new();
+    place.write("b.csv", "");
+    let made = std::process::Command::new("mkfifo")
+        .args([place.path("pipe.csv"), place.path("pipe.png")])
+        .status();
+    assert!(made.unwrap().success());
+    for command in [
+        "compare pipe.png pipe.png",
+        "compare pipe.csv b.csv --scene room.toml",
+        "compare /dev/zero /dev/zero",
+        "inspect pipe.png",
+    ] {
+        let (code, message) = place.fail(command);
+        assert_eq!(code, 3);
+        assert!(message.contains("it is no regular file"), "{message}");
+    }
+}
+
+/// Three kilobytes asked for three gigabytes.
+#[cfg(target_os = "linux")]
+#[test]
+fn small_files_take_little_memory() {
+    let place = Place::new();
+    let mut png = Vec::new();
+    let mut encoder = png::Encoder::new(&mut png, 1920, 1080);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_compression(png::Compression::High);
+    let mut writer = encoder.write_header().unwrap();
+    writer
+        .write_image_data(&vec![127; 1920 * 1080 * 3])
+        .unwrap();
+    drop(writer);
+    fs::write(place.path("plain.png"), &png).unwrap();
+    let run = |kilobytes: u32| {
+        let limited = format!("ulimit -v {kilobytes}; exec \"$0\" compare plain.png plain.png");
+        let program = env!("CARGO_BIN_EXE_radiosity");
+        let mut command = std::process::Command::new("sh");
+        let command = command.args(["-c", &limited, program]);
+        command.current_dir(place.0.path()).output().unwrap()
+    };
+    let output = run(200_000);
+    assert!(output.status.success(), "{output:?}");
+}
+
+/// Nor is a name of other bytes a reason to fail.
+#[cfg(target_os = "linux")]
+#[test]
+fn paths_may_be_of_any_bytes() {
+    use std::os::unix::ffi::OsStrExt;
+    let place = Place::new();
+    let name = |end: &str| [b"p\xff", end.as_bytes()].concat();
+    let path = |end: &str| place.0.path().join(std::ffi::OsStr::from_bytes(&name(end)));
+    fs::write(path(".pfm"), b"PF\n1 1\n-1\n\0\0\0\x3f\0\0\0\x3f\0\0\0\x3f").unwrap();
+    let mut command = place.command("compare --json");
+    command.arg(path(".pfm")).arg(path(".pfm"));
+    command.arg("--difference").arg(path("d.png"));
+    let output = command.output().unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(json["found"].as_str().unwrap().contains("p\u{fffd}.pfm"));
+    assert!(path("d.png").is_file());
+}

@@ -194,3 +194,28 @@ fn paths_of_scenes_need_not_be_text() {
     let reference = "reference --cells --spp 2";
     place.command(reference).arg(name).assert().success();
 }
+
+/// `ulimit -v` is a machine that is too small: whatever the limit is, a run ends well or says so.
+#[cfg(target_os = "linux")]
+#[test]
+fn limits_of_the_process_are_limits_of_memory() {
+    let place = Place::new();
+    let program = env!("CARGO_BIN_EXE_radiosity");
+    let run = |limit: u32, arguments: &str| {
+        let limited = format!("ulimit -v {limit}; exec \"$0\" {arguments}");
+        let mut command = std::process::Command::new("sh");
+        let command = command.args(["-c", &limited, program]);
+        let output = command.current_dir(place.0.path()).output().unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        (output.status.code(), stderr)
+    };
+    let solve = "solve room.toml --mode regular --points 1 --patches 150 --threads 2 --no-cache";
+    let (code, message) = run(300_000, solve);
+    assert_eq!(code, Some(4), "{message}");
+    assert!(
+        message.contains("of memory, but only") && message.contains("= help: use fewer patches"),
+        "{message}"
+    );
+    let (code, message) = run(300_000, &solve.replace("150", "20"));
+    assert_eq!(code, Some(0), "{message}");
+}

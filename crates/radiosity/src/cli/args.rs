@@ -4,8 +4,7 @@ use super::choices::{ByArg, ModeArg};
 use super::image_args::{DisplayArgs, ImageArgs, OF_PICTURES};
 use super::light_args::LightArgs;
 use super::parse::{
-    parse_counts, parse_csv_path, parse_difference_path, parse_gamma, parse_matrix_path,
-    parse_positive, parse_row_tolerance, parse_svg_path, parse_threshold,
+    parse_counts, parse_gamma, parse_positive, parse_row_tolerance, parse_threshold, path_ending_in,
 };
 use super::solver_args::SolveArgs;
 use clap::{Args, Subcommand};
@@ -135,7 +134,7 @@ pub struct FormFactorsCommand {
     pub recompute: bool,
     /// Write the matrix F[i, j], from row i to column j: a path that ends in .npy (float32) or .csv.
     /// What the rows are, with areas, sums and errors, is written beside it as NAME.rows.csv
-    #[arg(help_heading = "Results", long, value_name = "FILE", value_parser = parse_matrix_path)]
+    #[arg(help_heading = "Results", long, value_name = "FILE", value_parser = path_ending_in(&["npy", "csv"]))]
     pub export: Option<PathBuf>,
     /// What the rows of the exported matrix are; by surface or group, .csv has lines of
     /// from,to,F,error
@@ -170,10 +169,10 @@ pub struct SolveCommand {
     pub lights: LightArgs,
     /// Write the radiosities of all patches: surface,ia,ib,B_r,B_g,B_b in W/m^2; the path ends
     /// in .csv
-    #[arg(help_heading = "Results", long, value_name = "FILE.csv", value_parser = parse_csv_path)]
+    #[arg(help_heading = "Results", long, value_name = "FILE.csv", value_parser = path_ending_in(&["csv"]))]
     pub export: Option<PathBuf>,
     /// Solve by every method, and draw how the residual falls with each pass; the path ends in .svg
-    #[arg(help_heading = "Results", long, value_name = "FILE.svg", value_parser = parse_svg_path, conflicts_with_all = ["no_cache", "preview"])]
+    #[arg(help_heading = "Results", long, value_name = "FILE.svg", value_parser = path_ending_in(&["svg"]), conflicts_with_all = ["no_cache", "preview"])]
     pub plot: Option<PathBuf>,
 }
 
@@ -279,7 +278,7 @@ pub struct CompareCommand {
     pub gamma: Option<Gamma>,
     /// Write the differences: .png in colours (red: brighter, blue: darker), .pfm as linear
     /// numbers
-    #[arg(long, value_name = "FILE", value_parser = parse_difference_path)]
+    #[arg(long, value_name = "FILE", value_parser = path_ending_in(&["png", "pfm"]))]
     pub difference: Option<PathBuf>,
     /// Print one JSON object on standard output
     #[arg(long)]

@@ -13,7 +13,7 @@ pub(crate) fn run(command: &CacheCommand, site: &Site) -> Result<(), Error> {
     match command.action {
         CacheAction::List => list(&store),
         CacheAction::Clean => {
-            let (files, size) = store.clean()?;
+            let (files, size) = store.clean().map_err(Error::CacheFolder)?;
             let folder = folder.display();
             say(&format!(
                 "removed {files} files ({}) from {folder}",
@@ -24,7 +24,7 @@ pub(crate) fn run(command: &CacheCommand, site: &Site) -> Result<(), Error> {
 }
 
 fn list(store: &Store) -> Result<(), Error> {
-    let entries = store.list()?;
+    let entries = store.list().map_err(Error::CacheFolder)?;
     for entry in &entries {
         say(&describe(entry))?;
     }

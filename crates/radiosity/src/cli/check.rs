@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::lines::{indented, labelled, scene_line};
 use crate::resources::{Needs, bytes, grouped};
 use crate::settings::estimator;
-use radiosity_geometry::count_patches;
+use radiosity_geometry::{Divisions, count_patches};
 use radiosity_scene::{Light, Scene};
 
 pub(super) fn run(args: &CheckArgs, site: &Site) -> Result<(), Error> {
@@ -65,7 +65,9 @@ fn lights_line(scene: &Scene) -> Option<String> {
 
 /// What computing the scene would take.
 fn needs_of(scene: &Scene) -> Result<Needs, Error> {
-    let patches = count_patches(&scene.geometry, scene.divisions)
-        .map_err(|error| Error::of_mesh(scene, &error))?;
-    Ok(Needs::of(patches, estimator(scene)))
+    let of_mesh = |error| Error::of_mesh(scene, &error);
+    let patches = count_patches(&scene.geometry, scene.divisions).map_err(of_mesh)?;
+    let faces = count_patches(&scene.undivided(), Divisions::uniform(1)).map_err(of_mesh)?;
+    let needs = Needs::of(patches, faces, estimator(scene));
+    Ok(needs.with_closure(scene.form_factors.closure))
 }

@@ -1,9 +1,11 @@
 //! `compare`: how far one result is from another.
 
 use super::args::CompareCommand;
+use super::input::read;
+use super::printable;
 use super::run::{check_folder_of, write};
 use super::site::Site;
-use super::terminal::{say, tell};
+use super::terminal::{say, say_json, tell};
 use crate::error::Error;
 use crate::export::{cells, table_mesh};
 use crate::resources::grouped;
@@ -25,13 +27,13 @@ const USUAL: Transfer = Transfer::Gamma(2.2);
 #[derive(Debug, Serialize)]
 struct Json {
     /// The compared files.
-    found: PathBuf,
-    reference: PathBuf,
+    found: String,
+    reference: String,
     /// Regions of pictures, surfaces of tables, and `all`.
     regions: BTreeMap<String, Errors>,
     /// The written picture of differences.
     #[serde(skip_serializing_if = "Option::is_none")]
-    difference: Option<PathBuf>,
+    difference: Option<String>,
 }
 
 /// What came out.
@@ -64,13 +66,14 @@ pub(crate) fn run(args: &CompareCommand, site: &Site) -> Result<(), Error> {
         }
     };
     if args.json {
+        let text = |path: &PathBuf| path.display().to_string();
         let json = Json {
-            found: args.found.clone(),
-            reference: args.reference.clone(),
+            found: text(&args.found),
+            reference: text(&args.reference),
             regions: compared.named.into_iter().collect(),
-            difference: args.difference.clone(),
+            difference: args.difference.as_ref().map(text),
         };
-        return say(&serde_json::to_string(&json).expect("plain data always encodes"));
+        return say_json(&json);
     }
     print(&compared)?;
     match &args.difference {
@@ -191,24 +194,23 @@ fn surfaces_left_out(cells: &[Cell], named: &[(String, Errors)]) -> String {
     left_out.join(", ")
 }
 
-fn read(path: &Path) -> Result<Vec<u8>, Error> {
-    std::fs::read(path)
-        .map_err(|error| Error::Input(format!("cannot read {}: {error}", path.display())))
-}
-
 /// Says which file an error is about.
 fn at<E: std::fmt::Display>(path: &Path) -> impl Fn(E) -> Error {
     move |error| Error::Input(format!("{} {error}", path.display()))
 }
 
 fn print(Compared { named, left_out }: &Compared) -> Result<(), Error> {
-    let longest = named.iter().map(|(name, _)| name.chars().count()).max();
+    let names: Vec<String> = named
+        .iter()
+        .map(|(name, _)| printable::name(name))
+        .collect();
+    let longest = names.iter().map(|name| name.chars().count()).max();
     let width = longest.unwrap_or(0).max(12);
     say(&format!(
         "{:<width$}    RMSE %    bias %    median       90 %       99 %    largest    values",
         ""
     ))?;
-    for (name, errors) in named {
+    for (name, (_, errors)) in names.iter().zip(named) {
         let Errors {
             rmse_percent: rmse,
             bias_percent: bias,

@@ -1,8 +1,9 @@
 //! `inspect`.
 
 use super::args::InspectCommand;
+use super::input::check_regular;
 use super::site::Site;
-use super::terminal::say;
+use super::terminal::{say, say_json};
 use crate::error::Error;
 use crate::inspect::{CLOSURE_BOUNDS, FactorInspection, Inspection, SolutionInspection, WorstRow};
 use crate::lines::{
@@ -18,11 +19,12 @@ const LONGEST_BAR: f64 = 40.0;
 pub(super) fn run(args: &InspectCommand, site: &Site) -> Result<(), Error> {
     let path = &args.file;
     let unusable = |miss: Miss| Error::Input(explanation(path, &miss));
+    check_regular(path)?;
     let opened = open(path).map_err(unusable)?;
     let names = surface_names(args, site, &opened.stage)?;
     let inspection = Inspection::of(opened, names.as_deref()).map_err(unusable)?;
     if args.json {
-        return say(&serde_json::to_string(&inspection).expect("plain data always encodes"));
+        return say_json(&inspection);
     }
     let size = std::fs::metadata(path).map_or(0, |metadata| metadata.len());
     let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -30,17 +32,18 @@ pub(super) fn run(args: &InspectCommand, site: &Site) -> Result<(), Error> {
         "file",
         &format!("{name}, {}: no byte is damaged", bytes(size)),
     ))?;
-    say(&labelled("key", &inspection.key))?;
-    if let Some(form_factors) = &inspection.form_factors {
-        factor_lines(form_factors)
-            .iter()
-            .try_for_each(|line| say(line))?;
-    }
+    lines(&inspection).iter().try_for_each(|line| say(line))
+}
+
+/// All that is said of what a file holds.
+fn lines(inspection: &Inspection) -> Vec<String> {
+    let mut lines = vec![labelled("key", &inspection.key)];
+    lines.extend(inspection.form_factors.iter().flat_map(factor_lines));
     if let Some(solution) = &inspection.solution {
-        say(&solution_line(solution))?;
-        say(&labelled("lights", &solution.lights.join(", ")))?;
+        lines.push(solution_line(solution));
+        lines.push(labelled("lights", &solution.lights.join(", ")));
     }
-    Ok(())
+    lines
 }
 
 fn explanation(path: &Path, miss: &Miss) -> String {
@@ -156,3 +159,6 @@ fn solution_line(found: &SolutionInspection) -> String {
     );
     labelled("solution", &text)
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,5 +1,6 @@
 //! Values on the command line.
 
+use clap::builder::{OsStringValueParser, TypedValueParser};
 use radiosity_scene::{Automatic, Exposure, Gamma, MOST_DIMMING, Relaxation, Standard};
 use std::path::PathBuf;
 
@@ -45,18 +46,6 @@ pub(super) fn parse_tolerance(text: &str) -> Result<f64, String> {
     }
 }
 
-pub(super) fn parse_csv_path(text: &str) -> Result<PathBuf, String> {
-    parse_path(text, &["csv"])
-}
-
-pub(super) fn parse_svg_path(text: &str) -> Result<PathBuf, String> {
-    parse_path(text, &["svg"])
-}
-
-pub(super) fn parse_matrix_path(text: &str) -> Result<PathBuf, String> {
-    parse_path(text, &["npy", "csv"])
-}
-
 pub(super) fn parse_threshold(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(x) if (0.0..1.0).contains(&x) => Ok(x),
@@ -64,19 +53,20 @@ pub(super) fn parse_threshold(text: &str) -> Result<f64, String> {
     }
 }
 
-pub(super) fn parse_difference_path(text: &str) -> Result<PathBuf, String> {
-    parse_path(text, &["png", "pfm"])
-}
-
-pub(super) fn parse_path(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    match path.extension() {
-        Some(found) if endings.iter().any(|ending| found == *ending) => Ok(path),
-        _ => Err(format!(
-            "expected a path that ends in .{}",
-            endings.join(" or .")
-        )),
-    }
+/// Any path that has one of these endings, whatever bytes it is made of.
+pub(super) fn path_ending_in(
+    endings: &'static [&'static str],
+) -> impl TypedValueParser<Value = PathBuf> {
+    OsStringValueParser::new().try_map(move |text| {
+        let path = PathBuf::from(text);
+        match path.extension() {
+            Some(found) if endings.iter().any(|ending| found == *ending) => Ok(path),
+            _ => Err(format!(
+                "expected a path that ends in .{}",
+                endings.join(" or .")
+            )),
+        }
+    })
 }
 
 pub(super) fn parse_percent(text: &str) -> Result<f64, String> {

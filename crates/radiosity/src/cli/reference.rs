@@ -3,9 +3,10 @@
 use super::args::ReferenceCommand;
 use super::run::{make_folder, with_threads, write};
 use super::site::Site;
-use super::terminal::{Terminal, say};
+use super::terminal::{Terminal, say_json};
 use crate::error::Error;
 use crate::export::{reference_table, table_mesh};
+use crate::lines::indented;
 use crate::observer::{Observer, Stage};
 use crate::resources::{check_image, grouped};
 use crate::settings::tone_map;
@@ -15,7 +16,7 @@ use radiosity_scene::Scene;
 use radiosity_simd::InstructionSet;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// With fewer passes bright outliers, which are clamped, still hide most of the error.
@@ -39,7 +40,7 @@ struct Json {
     #[serde(skip_serializing_if = "Option::is_none")]
     patches: Option<usize>,
     /// Written files: `radiance`, `standard_error` and `png`, or `table`.
-    outputs: BTreeMap<&'static str, PathBuf>,
+    outputs: BTreeMap<&'static str, String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -64,12 +65,12 @@ pub(crate) fn run(args: &ReferenceCommand, site: &Site) -> Result<(), Error> {
             picture(args, &scene, folder, &terminal)?
         };
         for path in json.outputs.values() {
-            terminal.line(&format!("{:<14}{}", "", path.display()));
+            terminal.line(&indented(path));
         }
         if args.json {
-            say(&serde_json::to_string(&json).expect("plain data always encodes"))?;
+            say_json(&json)?;
         }
-        Ok(())
+        terminal.finish()
     })
 }
 
@@ -106,7 +107,7 @@ fn table(
         instruction_set: InstructionSet::current().name(),
         picture: None,
         patches: Some(patches),
-        outputs: BTreeMap::from([("table", path)]),
+        outputs: BTreeMap::from([("table", path.display().to_string())]),
     })
 }
 
@@ -209,7 +210,7 @@ fn save(
     scene: &Scene,
     tracer: &Tracer<'_>,
     folder: &Path,
-) -> Result<BTreeMap<&'static str, PathBuf>, Error> {
+) -> Result<BTreeMap<&'static str, String>, Error> {
     let traced = tracer.picture();
     let image = |pixels: &[[f64; 3]]| Image {
         width: traced.width,
@@ -235,7 +236,7 @@ fn save(
     for (name, ending, bytes) in files {
         let path = folder.join(format!("{}-{ending}", scene.name));
         write(&path, &bytes)?;
-        paths.insert(name, path);
+        paths.insert(name, path.display().to_string());
     }
     Ok(paths)
 }

@@ -1,30 +1,49 @@
-//! Progress bars, notes and lines on the terminal.
+//! Progress bars, notes and lines on the terminal. All that the command prints goes through here, with
+//! what is not safe to print shown as codes; only [`live`](super::live) draws by itself.
 
+use super::printable;
 use crate::error::Error;
+use crate::lines::indented;
 use crate::observer::{Observer, Stage};
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
-use std::io::{ErrorKind, Write};
+use serde::Serialize;
+use std::io::{self, ErrorKind, Write};
 use std::sync::Mutex;
 
-/// Prints a line on standard output. That nobody reads it any more (`| head`) is no error.
+/// Prints a line on standard output.
 pub(crate) fn say(text: &str) -> Result<(), Error> {
-    match writeln!(std::io::stdout(), "{text}") {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Error::Output {
-            path: "standard output".into(),
-            error,
-        }),
-        _ => Ok(()),
+    print(&printable::line(text)).map_err(unprintable)
+}
+
+/// Prints a JSON object on a line of standard output.
+pub(crate) fn say_json(object: &impl Serialize) -> Result<(), Error> {
+    let text = serde_json::to_string(object).expect("plain data always encodes");
+    print(&printable::json(&text)).map_err(unprintable)
+}
+
+/// Prints lines on standard error, whether anybody reads them or not.
+pub(crate) fn tell(text: &str) {
+    let _ = writeln!(io::stderr(), "{}", printable::lines(text));
+}
+
+/// That nobody reads standard output any more (`| head`) is no error.
+fn print(text: &str) -> io::Result<()> {
+    match writeln!(io::stdout(), "{text}") {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        result => result,
     }
 }
 
-/// Prints a line on standard error, whether anybody reads it or not.
-pub(crate) fn tell(text: &str) {
-    let _ = writeln!(std::io::stderr(), "{text}");
+fn unprintable(error: io::Error) -> Error {
+    let path = "standard output".into();
+    Error::Output { path, error }
 }
 
 /// Shows progress on standard error if that is a terminal, and prints lines.
 pub(crate) struct Terminal {
     bar: Mutex<Option<ProgressBar>>,
+    /// Why the first line that could not be printed was not.
+    failure: Mutex<Option<io::Error>>,
     /// Whether lines for people go to standard error, to leave standard output to JSON.
     pub(crate) json: bool,
 }
@@ -33,6 +52,7 @@ impl Terminal {
     pub(crate) fn new(json: bool) -> Terminal {
         Terminal {
             bar: Mutex::new(None),
+            failure: Mutex::new(None),
             json,
         }
     }
@@ -45,14 +65,28 @@ impl Terminal {
         }
     }
 
-    /// One line of the report for people.
+    /// One line of the report for people. A failure is no reason to lose the run:
+    /// [`finish`](Self::finish) tells it.
     pub(crate) fn line(&self, text: &str) {
-        // A closed pipe (`| head`) is no reason to lose the run.
-        let _ = if self.json {
-            writeln!(std::io::stderr(), "{text}")
-        } else {
-            writeln!(std::io::stdout(), "{text}")
-        };
+        let text = printable::line(text);
+        if self.json {
+            let _ = writeln!(io::stderr(), "{text}");
+        } else if let Err(error) = print(&text) {
+            self.failure().get_or_insert(error);
+        }
+    }
+
+    /// Whether all lines were printed.
+    pub(crate) fn finish(&self) -> Result<(), Error> {
+        self.failure()
+            .take()
+            .map_or(Ok(()), |error| Err(unprintable(error)))
+    }
+
+    fn failure(&self) -> std::sync::MutexGuard<'_, Option<io::Error>> {
+        self.failure
+            .lock()
+            .expect("nothing panics while it holds an error")
     }
 
     fn bar(&self) -> std::sync::MutexGuard<'_, Option<ProgressBar>> {
@@ -94,8 +128,9 @@ impl Observer for Terminal {
     }
 
     fn note(&self, message: &str) {
+        let text = printable::line(&indented(message));
         let print = || {
-            let _ = writeln!(std::io::stderr(), "{:<14}{message}", "");
+            let _ = writeln!(io::stderr(), "{text}");
         };
         match &*self.bar() {
             Some(bar) => bar.suspend(print),

@@ -20,6 +20,7 @@ impl Pipeline<'_> {
         let made = if self.scene.form_factors.closure {
             let id = self.form_factors_id();
             self.obtained(&id, sources, |store| {
+                self.job().needs().with_closure(true).check_memory()?;
                 let raw = self.estimated(sources)?.form_factors;
                 closed(&self.job(), &raw, store, &id)
             })
@@ -66,6 +67,7 @@ impl Pipeline<'_> {
             make,
         };
         let (form_factors, mut origin) = obtain(self.cache, self.observer, id, sources, recipe)?;
+        self.check_finite(&form_factors.rows)?;
         origin.bytes = 4 * form_factors.exchange.values().len() as u64;
         origin.seconds = start.elapsed().as_secs_f64();
         let surface = |patch: usize| self.mesh.patches[patch].surface.index();
@@ -81,6 +83,7 @@ impl Pipeline<'_> {
         Job {
             mesh: &self.mesh,
             estimator: settings::estimator(self.scene),
+            closure: self.scene.form_factors.closure,
             observer: self.observer,
         }
     }
@@ -101,9 +104,9 @@ impl Pipeline<'_> {
         values: impl AsRef<[f32]> + Send + Sync + 'static,
     ) -> Option<FormFactors> {
         let patches = self.mesh.patches.len();
+        let is_sound = facts.rows.len() == patches && facts.are_sound(values.as_ref().len());
         let exchange = SymmetricMatrix::new(patches, values).ok()?;
-        let is_complete = facts.rows.len() == patches && facts.areas.len() == patches;
-        is_complete.then_some(FormFactors {
+        is_sound.then_some(FormFactors {
             areas: facts.areas,
             exchange,
             rows: facts.rows,

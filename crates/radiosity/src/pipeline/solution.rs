@@ -151,6 +151,9 @@ impl Pipeline<'_> {
     fn stored_solution(&self, store: &Store, id: &Id<'_>) -> Result<Stored, Miss> {
         let artifact = store.read::<SolutionFacts>(id)?;
         let (facts, values) = artifact.into_values()?;
+        if !facts.are_sound(values.as_ref()) {
+            return Err(Miss::Header);
+        }
         let (lights, direct) = by_light(values.as_ref(), self.lights.len()).ok_or(Miss::Header)?;
         let patches = self.mesh.patches.len();
         if lights.iter().any(|light| light.len() != patches) || facts.visible.len() != patches {
@@ -263,7 +266,8 @@ impl Start {
         let (facts, values) = artifact
             .and_then(radiosity_cache::Artifact::into_values)
             .map_err(|miss| unusable(&miss))?;
-        let lights = by_light(values.as_ref(), facts.lights.len());
+        let is_sound = facts.are_sound(values.as_ref());
+        let lights = by_light(values.as_ref(), facts.lights.len()).filter(|_| is_sound);
         let (lights, _) = lights.ok_or_else(|| unusable(&Miss::Header))?;
         Ok(Start {
             key,

@@ -1,0 +1,67 @@
+//! What is told and refused.
+
+use super::*;
+
+#[test]
+fn quantities_are_readable() {
+    assert_eq!([0, 7, 99, 105_701].map(two_digits), [0, 7, 99, 100_000]);
+    assert_eq!(
+        ["0", "999", "1,728", "1,492,128"],
+        [0, 999, 1728, 1_492_128].map(grouped)[..]
+    );
+    assert_eq!(
+        ["0 patches", "1 patch", "2,400 patches"],
+        [0, 1, 2400].map(|n| counted(n, PATCHES))[..]
+    );
+    let sizes = [12, 999, 1_000, 5_968_512, 123_456_789, 1_530_000_000].map(bytes);
+    assert_eq!(
+        sizes,
+        ["12 B", "999 B", "1.0 kB", "6.0 MB", "123 MB", "1.5 GB"]
+    );
+    let times = [0.1, 7.4, 600.0, 9000.0].map(duration);
+    assert_eq!(
+        times,
+        ["under a second", "about 7 s", "about 10 min", "about 2.5 h"]
+    );
+}
+
+#[test]
+fn impossible_runs_are_refused_with_a_remedy() {
+    let needs = |patches, points| Needs::of(patches, 6, Estimator::Regular { points });
+    let error = needs(1 << 20, 3).check_memory().unwrap_err().to_string();
+    assert!(
+        error.contains("1,048,576 patches need 2.2 TB of memory"),
+        "{error}"
+    );
+    assert!(error.contains("use fewer patches"), "{error}");
+    for patches in [500, 5000, 50_000] {
+        let all = needs(patches, 3).with_closure(patches == 5000);
+        let fit = two_digits(patches as u64);
+        let remedy = all.remedy(all.memory + 1000);
+        assert!(
+            remedy.ends_with(&format!("about {} fit", grouped(fit))),
+            "{remedy}"
+        );
+    }
+    let mesh = Needs::of(1 << 20, 1 << 20, Estimator::Regular { points: 3 });
+    let error = mesh.check_memory().unwrap_err().to_string();
+    assert!(
+        error.contains("coarser meshes") && !error.contains("--patches"),
+        "{error}"
+    );
+    let (open, closed) = (needs(6000, 3), needs(6000, 3).with_closure(true));
+    assert_eq!(closed.memory - open.memory, 4 * open.pairs);
+    assert_eq!(closed.disk, 2 * open.disk);
+    assert!(needs(100, 3).check_memory().is_ok());
+    assert!(needs(4000, 64).memory > 500_000_000, "points count too");
+    let error = check_parts(1 << 20, "use --by").unwrap_err().to_string();
+    assert!(
+        error.contains("8.8 TB") && error.contains("--by"),
+        "{error}"
+    );
+    let error = check_image(1 << 16, 1 << 16).unwrap_err().to_string();
+    assert!(
+        error.contains("283 GB") && error.contains("--size"),
+        "{error}"
+    );
+}
