@@ -48,8 +48,8 @@ pub struct Draft {
 /// The next values of a draft.
 #[derive(Debug)]
 pub struct Batch<S> {
-    /// The values.
-    pub values: Vec<f32>,
+    /// The values, in any pieces.
+    pub values: Vec<Vec<f32>>,
     /// What [`Draft::resume`] will give, if there is to be a checkpoint behind them.
     pub state: Option<S>,
 }
@@ -183,7 +183,9 @@ impl Draft {
     }
 
     fn write<S: Serialize>(&mut self, batch: &Batch<S>) -> Result<(), CacheError> {
-        self.append(&batch.values)?;
+        for values in &batch.values {
+            self.append(values)?;
+        }
         match &batch.state {
             Some(state) => self.checkpoint(state),
             None => Ok(()),

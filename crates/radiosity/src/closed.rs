@@ -46,7 +46,7 @@ fn batches(closure: &Closure, raw: &FormFactors) -> impl Iterator<Item = Batch<(
         let mut values = raw.exchange.values()[range].to_vec();
         closure.apply(rows, &mut values);
         Batch {
-            values,
+            values: vec![values],
             state: None,
         }
     })

@@ -88,7 +88,7 @@ fn a_draft_becomes_the_artifact_that_is_written_at_once() {
 /// Batches of one value each, without checkpoints.
 fn ones(count: u64) -> impl Iterator<Item = Batch<u64>> {
     let one = |_| Batch {
-        values: vec![1.0],
+        values: vec![vec![1.0]],
         state: None,
     };
     (0..count).map(one)
@@ -120,7 +120,7 @@ fn batches_are_written_while_the_next_are_made() {
     let batch = |k: u32| {
         next_is_begun.store(k == 1, Ordering::Release);
         Batch {
-            values: vec![k as f32],
+            values: vec![vec![k as f32]],
             state: (k == 0).then_some(OnceTheNextIsBegun(&next_is_begun)),
         }
     };
@@ -203,9 +203,10 @@ proptest! {
             let (mut draft, begun) = draft(&store, values.len());
             let at = draft.written;
             prop_assert_eq!(begun.unwrap_or(0), at);
-            let next = values[at as usize..at as usize + length].to_vec();
+            let next = &values[at as usize..at as usize + length];
+            let pieces = [&next[..length / 3], &next[length / 3..]].map(<[f32]>::to_vec);
             let state = Some(at + length as u64);
-            draft.extend([Batch { values: next, state }]).unwrap();
+            draft.extend([Batch { values: pieces.into(), state }]).unwrap();
         }
         prop_assert!(finished(&store, &values).0 == expected(&values));
     }
