@@ -1,6 +1,6 @@
 //! What can go wrong, for people and for exit codes.
 
-use radiosity_cache::CacheError;
+use radiosity_cache::{CacheError, Changed};
 use radiosity_geometry::MeshError;
 use radiosity_scene::{Scene, SceneError};
 use radiosity_solver::SolveError;
@@ -50,6 +50,11 @@ pub enum Error {
     /// The cache folder cannot be used.
     #[error("error: {0}\n   = help: choose another folder with --cache, or use --no-cache")]
     Cache(#[from] CacheError),
+    /// A file of the cache was changed while a result was made of it.
+    #[error(
+        "error: {0}: the result is not written\n   = help: run the same command again, which makes anew what is damaged"
+    )]
+    Changed(#[from] Changed),
     /// A result cannot be written.
     #[error("error: cannot write {}: {error}", path.display())]
     Output {
@@ -70,7 +75,8 @@ impl Error {
             | Error::NoSuchScene { .. }
             | Error::NoCamera
             | Error::Input(_)
-            | Error::Mesh(_) => 3,
+            | Error::Mesh(_)
+            | Error::Changed(_) => 3,
             Error::Resources { .. } => 4,
             Error::Unsolvable { .. } => 5,
         }

@@ -152,6 +152,7 @@ impl Pipeline<'_> {
         let artifact = store.read::<SolutionFacts>(id)?;
         let (facts, values) = artifact.into_values()?;
         let (lights, direct) = by_light(values.as_ref(), self.lights.len()).ok_or(Miss::Header)?;
+        values.check()?;
         let patches = self.mesh.patches.len();
         if lights.iter().any(|light| light.len() != patches) || facts.visible.len() != patches {
             return Err(Miss::Header);
@@ -265,6 +266,7 @@ impl Start {
             .map_err(|miss| unusable(&miss))?;
         let lights = by_light(values.as_ref(), facts.lights.len());
         let (lights, _) = lights.ok_or_else(|| unusable(&Miss::Header))?;
+        values.check().map_err(|changed| unusable(&changed))?;
         Ok(Start {
             key,
             residuals: facts.report.residuals,
