@@ -2,11 +2,9 @@
 
 use crate::digests::BLOCK_VALUES;
 use crate::format::ALIGNMENT;
-use crate::{Id, Key, Miss, Store, Values};
+use crate::{Id, Key, Miss, Store};
 use proptest::prelude::*;
-use std::fs::{self, OpenOptions};
-use std::io::{Seek, SeekFrom, Write};
-use std::path::Path;
+use std::fs;
 use tempfile::TempDir;
 
 type Facts = (u32, Vec<f64>);
@@ -197,62 +195,6 @@ fn a_mapped_file_survives_its_replacement() {
     let (_, old) = store.read::<Facts>(&id(1)).unwrap().into_values().unwrap();
     store.write(&id(1), &sample().0, &[9.0; 4]).unwrap();
     assert_eq!(old.as_ref(), sample().1);
-}
-
-/// More than are read: a file that is used in place.
-fn mapped() -> (TempDir, Store, Values) {
-    let folder = TempDir::new().unwrap();
-    let store = Store::new(folder.path());
-    store.write(&id(1), &(), &vec![1.0; 17 << 20]).unwrap();
-    let artifact = store.read::<()>(&id(1)).unwrap();
-    let ((), values) = artifact.into_values().unwrap();
-    (folder, store, values)
-}
-
-fn overwrite_end(path: &Path) {
-    let mut file = OpenOptions::new().write(true).open(path).unwrap();
-    file.seek(SeekFrom::End(-4)).unwrap();
-    file.write_all(&2f32.to_le_bytes()).unwrap();
-}
-
-#[test]
-fn nothing_is_made_of_a_file_that_is_changed_while_it_is_mapped() {
-    let (folder, store, values) = mapped();
-    values.check().unwrap();
-    store.write(&id(2), &(), &[]).unwrap();
-    overwrite_end(&store.path(&id(1)));
-    assert!(values.check().is_err());
-    let changed = store.check().unwrap_err();
-    assert_eq!(changed.path, store.path(&id(1)));
-    let refused = store.write(&id(3), &(), &[]).unwrap_err();
-    assert!(
-        refused.to_string().contains("was changed while"),
-        "{refused}"
-    );
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
-    // Nobody uses it any more, but what was made of it is still about.
-    drop(values);
-    assert!(store.check().is_err());
-    assert!(Store::new(folder.path()).check().is_ok());
-}
-
-#[test]
-fn what_is_replaced_or_removed_is_not_changed() {
-    let (_folder, store, values) = mapped();
-    store.write(&id(1), &(), &[1.0]).unwrap();
-    fs::remove_file(store.path(&id(1))).unwrap();
-    store.check().unwrap();
-    assert!(values.as_ref().iter().all(|&value| value == 1.0));
-}
-
-#[test]
-fn small_files_are_read_whatever_becomes_of_them() {
-    let (_folder, store) = written();
-    let (_, values) = store.read::<Facts>(&id(1)).unwrap().into_values().unwrap();
-    let file = OpenOptions::new().write(true).open(store.path(&id(1)));
-    file.unwrap().set_len(0).unwrap();
-    store.check().unwrap();
-    assert_eq!(values.as_ref(), sample().1);
 }
 
 #[test]

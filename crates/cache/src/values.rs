@@ -7,6 +7,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
+#[cfg(test)]
+mod tests;
+
 /// Values of so many bytes are read, more are mapped: reading takes some 20 ms at most, as much
 /// memory as the solver needs anyway, and whoever changes the file later changes nothing.
 const MOST_READ: u64 = 64 << 20;
