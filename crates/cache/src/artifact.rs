@@ -3,17 +3,20 @@
 use crate::digests::{Digest, Digests};
 use crate::format::{self, Header, Miss};
 use crate::key::Key;
-use crate::mapping::{self, MappedValues};
+use crate::values::{InUse, Stamp, Values};
 use serde::de::DeserializeOwned;
 use std::fs::File;
-use std::path::Path;
+use std::io::BufReader;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// An artifact read from a file.
 #[derive(Debug)]
 pub struct Artifact<F> {
     /// The small typed part.
     pub facts: F,
-    values: MappedValues,
+    values: ValuesOf,
     block_digests: Vec<Digest>,
 }
 
@@ -25,24 +28,41 @@ pub struct Opened {
     /// Its identity.
     pub key: Key,
     header: Header,
-    values: MappedValues,
+    values: ValuesOf,
+}
+
+/// Where values are that nobody has asked for yet.
+#[derive(Debug)]
+struct ValuesOf {
+    path: PathBuf,
+    file: File,
+    range: Range<u64>,
+    stamp: Stamp,
+    in_use: Arc<InUse>,
 }
 
 /// Opens a file of the cache that nobody asked for by its inputs. Everything is checked but the
 /// digests of its values.
 pub fn open(path: &Path) -> Result<Opened, Miss> {
-    Opened::of(&File::open(path)?)
+    Opened::at(path, Arc::default())
 }
 
 impl Opened {
-    pub(crate) fn of(file: &File) -> Result<Opened, Miss> {
-        let map = mapping::map(file)?;
-        let (header, values) = format::parse(&map)?;
+    pub(crate) fn at(path: &Path, in_use: Arc<InUse>) -> Result<Opened, Miss> {
+        let file = File::open(path)?;
+        let stamp = Stamp::of(&file)?;
+        let (header, range) = format::read_head(&mut BufReader::new(&file), stamp.len)?;
         Ok(Opened {
             stage: header.stage.clone(),
             key: Key(header.key),
             header,
-            values: MappedValues::new(map, values),
+            values: ValuesOf {
+                path: path.to_owned(),
+                file,
+                range,
+                stamp,
+                in_use,
+            },
         })
     }
 
@@ -56,10 +76,22 @@ impl Opened {
     }
 }
 
+impl ValuesOf {
+    fn get(self) -> Result<Values, Miss> {
+        let values = Values::of(&self.path, &self.file, self.range, self.stamp)?;
+        values
+            .source()
+            .into_iter()
+            .for_each(|source| self.in_use.add(source));
+        Ok(values)
+    }
+}
+
 impl<F> Artifact<F> {
     /// The big array, its digests checked.
-    pub fn into_values(self) -> Result<(F, MappedValues), Miss> {
-        let digests = Digests::of(self.values.as_ref()).all();
+    pub fn into_values(self) -> Result<(F, Values), Miss> {
+        let values = self.values.get()?;
+        let digests = Digests::of(values.as_ref()).all();
         let is_good = |(found, expected)| found == expected;
         let good = digests
             .iter()
@@ -67,7 +99,7 @@ impl<F> Artifact<F> {
             .take_while(|&pair| is_good(pair));
         match good.count() {
             all if all == digests.len() && all == self.block_digests.len() => {
-                Ok((self.facts, self.values))
+                Ok((self.facts, values))
             }
             block => Err(Miss::Block { block }),
         }

@@ -1,6 +1,6 @@
 //! The names of files in the cache folder.
 
-use crate::replace::PARTIAL;
+use crate::partial::{PARTIAL, is_partial};
 use std::path::{Path, PathBuf};
 
 pub(crate) const EXTENSION: &str = "bin";
@@ -24,7 +24,8 @@ impl CacheFile {
         let is_ours = suffix.is_empty()
             || suffix == format!(".{LOCK}")
             || suffix == format!(".{JOURNAL}")
-            || suffix.ends_with(&format!(".{PARTIAL}"));
+            || suffix == format!(".{PARTIAL}")
+            || is_partial(&path);
         let artifact = path.with_file_name(format!("{scene_and_stage}-{key}.{EXTENSION}"));
         (is_key && is_ours).then_some(CacheFile { path, artifact })
     }

@@ -6,26 +6,31 @@
 //! many values are finished, their digests, and what their maker must know to go on. In the end the
 //! head is written before the values, and the file gets its name. Writing values and checkpoints
 //! takes about as long as making the values, so [`Draft::extend`] does that on another thread
-//! meanwhile.
+//! meanwhile. When the file cannot be written any more, what is in it is read back, and the rest is
+//! made in memory.
 
-use crate::cache_file::{journal_of, partial_of};
+use crate::cache_file::partial_of;
 use crate::digests::{Digest, Digests};
 use crate::format;
 use crate::key::Key;
-use crate::mapping::{self, MappedValues};
-use crate::replace::replace_file;
+use crate::lock::is_still_at;
 use crate::store::{CacheError, Id, Store};
+use crate::values::{Source, Stamp, Values};
+use journal::Journal;
+use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
 use std::fs::{self, File, OpenOptions};
-use std::io::{Seek, SeekFrom, Write};
-use std::panic::resume_unwind;
+use std::io::{self, ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
-use std::sync::mpsc;
-use std::thread;
+use std::sync::Arc;
 
+mod journal;
 #[cfg(test)]
 mod tests;
+mod writing;
+
+pub use journal::Unusable;
+pub use writing::{Batch, OnFailure};
 
 /// An artifact being made, value after value. Whoever has one has the artifact's lock.
 #[derive(Debug)]
@@ -43,26 +48,10 @@ pub struct Draft {
     /// How many there were at the last checkpoint.
     saved: u64,
     digests: Digests,
-}
-
-/// The next values of a draft.
-#[derive(Debug)]
-pub struct Batch<S> {
-    /// The values.
-    pub values: Vec<f32>,
-    /// What [`Draft::resume`] will give, if there is to be a checkpoint behind them.
-    pub state: Option<S>,
-}
-
-/// What is known of a draft at a checkpoint.
-#[derive(Serialize, Deserialize)]
-struct Journal {
-    key: [u8; 32],
-    start: u64,
-    count: u64,
-    written: u64,
-    digests: Vec<Digest>,
-    state: Vec<u8>,
+    /// All values, once the file cannot be written any more.
+    memory: Option<Vec<f32>>,
+    /// The file, if its values are used in place.
+    source: Option<Arc<Source>>,
 }
 
 impl Draft {
@@ -80,9 +69,14 @@ impl Draft {
         let start = start(id, blank, count);
         let partial = partial_of(&path);
         let file = create(&partial, start).map_err(CacheError::new("create", &partial))?;
-        Ok(Draft {
+        Ok(Draft::of(store, id, file, start, count))
+    }
+
+    /// Without any values.
+    fn of(store: &Store, id: &Id<'_>, file: File, start: u64, count: u64) -> Draft {
+        Draft {
             store: store.clone(),
-            path,
+            path: store.path(id),
             stage: id.stage.to_owned(),
             key: id.key,
             file,
@@ -91,7 +85,9 @@ impl Draft {
             written: 0,
             saved: 0,
             digests: Digests::default(),
-        })
+            memory: None,
+            source: None,
+        }
     }
 
     /// Removes what an interrupted writer of an artifact has left. The caller has its lock.
@@ -99,48 +95,33 @@ impl Draft {
         store.remove_leftovers(&store.path(id));
     }
 
-    /// Goes on with a draft that was interrupted, from its last checkpoint, if there is one and no
-    /// byte of it is damaged; gives the state that was saved with it.
+    /// Goes on with a draft that was interrupted, from its last checkpoint; gives the state that was
+    /// saved with it. `None` if there is no draft.
     pub fn resume<S: DeserializeOwned>(
         store: &Store,
         id: &Id<'_>,
         blank: &impl Serialize,
         count: u64,
-    ) -> Option<(Draft, S)> {
+    ) -> Result<Option<(Draft, S)>, Unusable> {
         let path = store.path(id);
-        let sealed = fs::read(journal_of(&path)).ok()?;
-        let journal: Journal = format::decode(format::unsealed(&sealed)?)?;
-        let fits = journal.key == id.key.bytes()
-            && journal.start == start(id, blank, count)
-            && journal.count == count
-            && journal.written <= count;
-        let state = format::decode(&journal.state).filter(|_| fits)?;
+        let Some(journal) = Journal::read(&path)? else {
+            return Ok(None);
+        };
+        let start = start(id, blank, count);
+        journal.check(id.key, start, count)?;
+        let state = format::decode(&journal.state).ok_or(Unusable::Version)?;
         let partial = partial_of(&path);
-        let mut file = readable_and_writable().open(partial).ok()?;
-        let end = journal.start + 4 * journal.written;
-        if file.metadata().ok()?.len() < end {
-            return None;
-        }
-        file.set_len(end).ok()?;
-        let values = mapped(&file, journal.start, journal.written).ok()?;
-        let digests = Digests::of(values.as_ref());
-        if digests.all() != journal.digests {
-            return None;
-        }
-        file.seek(SeekFrom::Start(end)).ok()?;
+        let mut file = readable_and_writable().open(&partial)?;
+        let digests = journal.digests_of(&partial, &file)?;
+        file.set_len(journal.end())?;
+        file.seek(SeekFrom::End(0))?;
         let draft = Draft {
-            store: store.clone(),
-            path,
-            stage: id.stage.to_owned(),
-            key: id.key,
-            file,
-            start: journal.start,
-            count,
             written: journal.written,
             saved: journal.written,
             digests,
+            ..Draft::of(store, id, file, start, count)
         };
-        Some((draft, state))
+        Ok(Some((draft, state)))
     }
 
     /// How many values an interruption does not lose.
@@ -148,88 +129,36 @@ impl Draft {
         self.saved
     }
 
-    /// Writes batches one after the other, each while the next one is made by the calling thread.
-    /// After an error no more are made than the one that was begun. If making one panics, those
-    /// before it are still written.
-    ///
-    /// # Panics
-    ///
-    /// If there are more values than was said.
-    pub fn extend<S: Serialize + Send>(
-        &mut self,
-        batches: impl IntoIterator<Item = Batch<S>>,
-    ) -> Result<(), CacheError> {
-        let partial = partial_of(&self.path);
-        thread::scope(|scope| {
-            // Without room for any: one batch is being written, and one made.
-            let (sender, receiver) = mpsc::sync_channel(0);
-            let write = move || {
-                receiver
-                    .into_iter()
-                    .try_for_each(|batch| self.write(&batch))
-            };
-            let writer = thread::Builder::new()
-                .spawn_scoped(scope, write)
-                .map_err(CacheError::new("start writing", &partial))?;
-            for batch in batches {
-                let writer_has_failed = sender.send(batch).is_err();
-                if writer_has_failed {
-                    break;
-                }
-            }
-            drop(sender);
-            writer.join().unwrap_or_else(|panic| resume_unwind(panic))
-        })
-    }
-
-    fn write<S: Serialize>(&mut self, batch: &Batch<S>) -> Result<(), CacheError> {
-        self.append(&batch.values)?;
-        match &batch.state {
-            Some(state) => self.checkpoint(state),
-            None => Ok(()),
+    /// The values up to now: they stay valid when the draft is finished or dropped. Those that are
+    /// held in memory are given away.
+    pub fn values(&mut self) -> Result<Values, CacheError> {
+        if let Some(memory) = &mut self.memory {
+            return Ok(Values::in_memory(std::mem::take(memory)));
         }
+        let values = self.written_values()?;
+        self.source = values.source().cloned();
+        Ok(values)
     }
 
-    fn append(&mut self, values: &[f32]) -> Result<(), CacheError> {
-        self.written += values.len() as u64;
-        assert!(self.written <= self.count, "more values than was said");
-        let written = self.file.write_all(bytemuck::cast_slice(values));
-        written.map_err(CacheError::new("write", &partial_of(&self.path)))?;
-        self.digests.extend(values);
-        Ok(())
+    fn written_values(&mut self) -> Result<Values, CacheError> {
+        let partial = partial_of(&self.path);
+        let range = self.start..self.start + 4 * self.written;
+        let values = Stamp::of(&self.file)
+            .and_then(|stamp| Values::of(&partial, &self.file, range, stamp))
+            .and_then(|values| self.file.seek(SeekFrom::End(0)).map(|_| values));
+        values.map_err(CacheError::new("read", &partial))
     }
 
-    /// Makes sure that what is written up to now is not lost.
-    fn checkpoint(&mut self, state: &impl Serialize) -> Result<(), CacheError> {
-        let synced = self.file.sync_data();
-        synced.map_err(CacheError::new("write", &partial_of(&self.path)))?;
-        let journal = Journal {
-            key: self.key.bytes(),
-            start: self.start,
-            count: self.count,
-            written: self.written,
-            digests: self.digests.all(),
-            state: format::encode(state),
-        };
-        let path = journal_of(&self.path);
-        let sealed = format::sealed(&format::encode(&journal));
-        replace_file(&path, &[&sealed]).map_err(CacheError::new("write", &path))?;
-        self.saved = self.written;
-        Ok(())
-    }
-
-    /// The values up to now, in place: they stay valid when the draft is finished or dropped.
-    pub fn values(&self) -> Result<MappedValues, CacheError> {
-        mapped(&self.file, self.start, self.written)
-            .map_err(CacheError::new("map", &partial_of(&self.path)))
-    }
-
-    /// Turns the draft into the artifact.
+    /// Turns the draft into the artifact; says whether it is there, which it is not if values had to
+    /// be held in memory.
     ///
     /// # Panics
     ///
     /// If values are missing, or the facts take more or less room than the blank ones.
-    pub fn finish(mut self, facts: &impl Serialize) -> Result<(), CacheError> {
+    pub fn finish(mut self, facts: &impl Serialize) -> Result<bool, CacheError> {
+        if self.memory.is_some() {
+            return Ok(false);
+        }
         assert_eq!(self.written, self.count, "values are missing");
         let digests = self.digests.all();
         let head = format::head(&self.stage, self.key, facts, self.count, digests);
@@ -238,16 +167,27 @@ impl Draft {
             self.start,
             "facts are not like the blank ones"
         );
-        let partial = partial_of(&self.path);
-        let mut complete = || {
-            self.file.rewind()?;
-            self.file.write_all(&head)?;
-            self.file.sync_all()?;
-            fs::rename(&partial, &self.path)
-        };
-        complete().map_err(CacheError::new("write", &partial))?;
+        let completed = self.complete(&head);
+        if let Some(source) = &self.source {
+            let renewed = source.renew();
+            renewed.map_err(CacheError::new("read", &self.path))?;
+            self.store.in_use.add(source);
+        }
+        completed.map_err(CacheError::new("write", &partial_of(&self.path)))?;
         self.store.remove_leftovers(&self.path);
-        Ok(())
+        Ok(true)
+    }
+
+    fn complete(&mut self, head: &[u8]) -> io::Result<()> {
+        self.store.check().map_err(io::Error::other)?;
+        self.file.rewind()?;
+        self.file.write_all(head)?;
+        self.file.sync_all()?;
+        let partial = partial_of(&self.path);
+        if !is_still_at(&self.file, &partial) {
+            return Err(ErrorKind::NotFound.into());
+        }
+        fs::rename(partial, &self.path)
     }
 }
 
@@ -273,9 +213,4 @@ fn readable_and_writable() -> OpenOptions {
     let mut options = OpenOptions::new();
     options.read(true).write(true);
     options
-}
-
-fn mapped(file: &File, start: u64, count: u64) -> std::io::Result<MappedValues> {
-    let (start, bytes) = (start as usize, 4 * count as usize);
-    Ok(MappedValues::new(mapping::map(file)?, start..start + bytes))
 }

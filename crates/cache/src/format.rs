@@ -7,8 +7,11 @@
 
 use crate::digests::Digest;
 use crate::key::Key;
+use crate::values::Changed;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use std::io::{self, Read};
+use std::ops::Range;
 
 #[cfg(target_endian = "big")]
 compile_error!("cache files are little endian and used in place");
@@ -59,7 +62,7 @@ pub enum Miss {
     InputsChanged,
     /// The file cannot be read.
     #[error("the cached file cannot be read: {0}")]
-    Io(#[from] std::io::Error),
+    Io(#[from] io::Error),
     /// The file does not begin as a cache file does.
     #[error("the cached file is not a cache file")]
     NotACacheFile,
@@ -92,6 +95,9 @@ pub enum Miss {
         /// The first damaged block.
         block: usize,
     },
+    /// Its values are not what they were any more.
+    #[error(transparent)]
+    Changed(#[from] Changed),
 }
 
 fn config() -> impl bincode::config::Config {
@@ -155,12 +161,11 @@ fn after_header(header_len: usize, value_count: u64) -> Vec<u8> {
     encode(&(padding, value_count))
 }
 
-/// Checks everything that stands before the values; gives the header and where the values are.
-pub(crate) fn parse(file: &[u8]) -> Result<(Header, std::ops::Range<usize>), Miss> {
-    let preamble: Preamble = file
-        .get(..PREAMBLE_LEN)
-        .and_then(decode)
-        .ok_or(Miss::NotACacheFile)?;
+/// Reads and checks everything that stands before the values of a file of so many bytes; gives the
+/// header and where the values are.
+pub(crate) fn read_head(file: &mut impl Read, len: u64) -> Result<(Header, Range<u64>), Miss> {
+    let preamble = next_bytes(file, PREAMBLE_LEN)?;
+    let preamble: Preamble = decode(&preamble).ok_or(Miss::NotACacheFile)?;
     if preamble.magic != MAGIC {
         return Err(Miss::NotACacheFile);
     }
@@ -171,25 +176,31 @@ pub(crate) fn parse(file: &[u8]) -> Result<(Header, std::ops::Range<usize>), Mis
     }
     let header_len = usize::try_from(preamble.header_len)
         .ok()
-        .filter(|&len| len <= HEADER_LIMIT)
+        .filter(|&header_len| header_len <= HEADER_LIMIT)
         .ok_or(Miss::Header)?;
-    let header = file
-        .get(PREAMBLE_LEN..PREAMBLE_LEN + header_len)
-        .filter(|bytes| blake3::hash(bytes).as_bytes() == &preamble.header_digest)
-        .and_then(decode::<Header>)
-        .ok_or(Miss::Header)?;
-    let end_of_header = PREAMBLE_LEN + header_len;
+    let header = next_bytes(file, header_len)?;
+    let is_good = blake3::hash(&header).as_bytes() == &preamble.header_digest;
+    let header: Header = decode(&header).filter(|_| is_good).ok_or(Miss::Header)?;
     let after_header = after_header(header_len, header.value_count);
-    let start = end_of_header + after_header.len();
-    let expected = (start as u64).saturating_add(header.value_count.saturating_mul(4));
-    let found = file.len() as u64;
-    if expected != found {
-        return Err(Miss::Length { expected, found });
+    let start = (PREAMBLE_LEN + header_len + after_header.len()) as u64;
+    let expected = start.saturating_add(header.value_count.saturating_mul(4));
+    if expected != len {
+        return Err(Miss::Length {
+            expected,
+            found: len,
+        });
     }
-    if file[end_of_header..start] != after_header {
+    if next_bytes(file, after_header.len())? != after_header {
         return Err(Miss::Header);
     }
-    Ok((header, start..file.len()))
+    Ok((header, start..len))
+}
+
+/// The next so many bytes, or as many as there are.
+fn next_bytes(file: &mut impl Read, len: usize) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    file.take(len as u64).read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 impl Header {

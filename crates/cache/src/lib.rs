@@ -4,7 +4,8 @@
 //! a [`Key`], the digest of everything that its stage read. [`Store::read`] gives an
 //! [`Artifact`] or the reason why there is none ([`Miss`]); every doubt about a file is a miss,
 //! never an error and never wrong data. [`Store::write`] replaces files atomically; a [`Draft`] is
-//! written as it is made, and survives its writer.
+//! written as it is made, and survives its writer. What was made of a file that somebody changed
+//! meanwhile is not kept ([`Store::check`]).
 //!
 //! This crate is the only one that names bincode. It knows nothing of physics.
 
@@ -15,18 +16,20 @@ mod draft;
 mod format;
 mod key;
 mod lock;
-mod mapping;
+mod partial;
 mod replace;
 mod store;
+mod values;
 
 #[cfg(test)]
 mod tests;
 
 pub use artifact::{Artifact, Opened, open};
-pub use draft::{Batch, Draft};
+pub use draft::{Batch, Draft, OnFailure, Unusable};
 pub use format::Miss;
 pub use key::Key;
 pub use lock::Lock;
-pub use mapping::MappedValues;
+pub use partial::remove_unfinished;
 pub use replace::{replace_file, replace_file_by};
 pub use store::{CacheError, Entry, Id, Store};
+pub use values::{Changed, Values};

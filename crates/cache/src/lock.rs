@@ -60,8 +60,9 @@ impl Drop for Lock {
     }
 }
 
+/// Whether the file that is open is the one at a path.
 #[cfg(unix)]
-fn is_still_at(file: &File, path: &Path) -> bool {
+pub(crate) fn is_still_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     let identity = |metadata: std::fs::Metadata| (metadata.dev(), metadata.ino());
     match (file.metadata(), std::fs::metadata(path)) {
@@ -72,6 +73,6 @@ fn is_still_at(file: &File, path: &Path) -> bool {
 
 /// Where lock files are never removed, the one we opened is the one that is there.
 #[cfg(not(unix))]
-fn is_still_at(_: &File, _: &Path) -> bool {
+pub(crate) fn is_still_at(_: &File, _: &Path) -> bool {
     true
 }

@@ -1,21 +1,25 @@
 //! The cache folder.
 
 use crate::artifact::{Artifact, Opened, open};
-use crate::cache_file::{CacheFile, EXTENSION, lock_of, partial_of};
+use crate::cache_file::{CacheFile, EXTENSION, journal_of, lock_of, partial_of};
 use crate::digests::Digests;
 use crate::format::{self, Miss};
 use crate::key::Key;
 use crate::lock::Lock;
 use crate::replace::replace_file;
+use crate::values::{Changed, InUse};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use std::fs::{self, File};
+use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A folder of cached artifacts.
 #[derive(Clone, Debug)]
 pub struct Store {
     folder: PathBuf,
+    pub(crate) in_use: Arc<InUse>,
 }
 
 /// What names an artifact: the file is `<scene>-<stage>-<key prefix>.bin`.
@@ -60,6 +64,7 @@ impl Store {
     pub fn new(folder: impl Into<PathBuf>) -> Store {
         Store {
             folder: folder.into(),
+            in_use: Arc::default(),
         }
     }
 
@@ -87,28 +92,32 @@ impl Store {
     /// writing it now.
     pub fn tidy(&self, id: &Id<'_>) {
         let path = self.path(id);
-        if partial_of(&path).exists()
+        let left = [partial_of(&path), journal_of(&path), lock_of(&path)];
+        if left.iter().any(|path| path.exists())
             && let Ok(Some(_lock)) = Lock::try_take(lock_of(&path))
         {
             self.remove_leftovers(&path);
         }
     }
 
-    /// Reads an artifact's facts, or says why it must be computed. The values are mapped but
-    /// not yet read.
+    /// Reads an artifact's facts, or says why it must be computed. The values are not yet read.
     pub fn read<F: DeserializeOwned>(&self, id: &Id<'_>) -> Result<Artifact<F>, Miss> {
-        let file = match File::open(self.path(id)) {
-            Ok(file) => file,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+        let opened = match Opened::at(&self.path(id), self.in_use.clone()) {
+            Err(Miss::Io(error)) if error.kind() == ErrorKind::NotFound => {
                 return Err(self.absence(id));
             }
-            Err(error) => return Err(error.into()),
+            opened => opened?,
         };
-        let opened = Opened::of(&file)?;
         if opened.key != id.key || opened.stage != id.stage {
             return Err(Miss::OtherKey);
         }
         opened.into_artifact()
+    }
+
+    /// Whether files whose values are used in place are still what they were. What was made of them
+    /// is worth nothing if not: ask before it is kept or shown.
+    pub fn check(&self) -> Result<(), Changed> {
+        self.in_use.check()
     }
 
     /// Writes an artifact. Whoever looks meanwhile, or after an interruption, finds the old
@@ -125,7 +134,10 @@ impl Store {
         let (count, digests) = (values.len() as u64, Digests::of(values).all());
         let head = format::head(id.stage, id.key, facts, count, digests);
         let data: &[u8] = bytemuck::cast_slice(values);
-        replace_file(&path, &[&head, data]).map_err(CacheError::new("write", &path))?;
+        let checked = self.check().map_err(std::io::Error::other);
+        checked
+            .and_then(|()| replace_file(&path, &[&head, data]))
+            .map_err(CacheError::new("write", &path))?;
         Ok((head.len() + data.len()) as u64)
     }
 
@@ -154,7 +166,7 @@ impl Store {
             bytes += fs::metadata(&file.path).map_or(0, |m| m.len());
             match fs::remove_file(&file.path) {
                 Ok(()) => count += 1,
-                Err(error) if error.kind() == std::io::ErrorKind::NotFound => {}
+                Err(error) if error.kind() == ErrorKind::NotFound => {}
                 Err(error) => return Err(CacheError::new("remove", &file.path)(error)),
             }
         }
@@ -192,7 +204,7 @@ impl Store {
     fn files(&self) -> Result<Vec<CacheFile>, CacheError> {
         let entries = match fs::read_dir(&self.folder) {
             Ok(entries) => entries,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
             Err(error) => return Err(CacheError::new("list", &self.folder)(error)),
         };
         let paths = entries.filter_map(|entry| {

@@ -179,7 +179,9 @@ fn facts_of_another_type_are_a_miss() {
 #[test]
 fn a_leftover_of_an_interrupted_write_does_no_harm() {
     let (_folder, store) = written();
-    let partial = store.path(&id(1)).with_extension("bin.Xy12.partial");
+    let partial = store
+        .path(&id(1))
+        .with_extension("bin.radiosity-Xy12ab.partial");
     fs::write(&partial, b"half a file").unwrap();
     assert_eq!(read(&store), Ok(sample()));
     let (facts, values) = sample();
@@ -193,6 +195,17 @@ fn a_mapped_file_survives_its_replacement() {
     let (_, old) = store.read::<Facts>(&id(1)).unwrap().into_values().unwrap();
     store.write(&id(1), &sample().0, &[9.0; 4]).unwrap();
     assert_eq!(old.as_ref(), sample().1);
+}
+
+#[test]
+fn locks_and_journals_beside_an_artifact_are_removed() {
+    let (folder, store) = written();
+    let left = |ending: &str| store.path(&id(1)).with_extension(format!("bin.{ending}"));
+    for ending in ["lock", "journal", "partial"] {
+        fs::write(left(ending), b"").unwrap();
+        store.tidy(&id(1));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "{ending}");
+    }
 }
 
 #[test]
@@ -237,7 +250,7 @@ fn clean_spares_what_is_not_cached() {
         fs::write(folder.path().join(name), b"mine").unwrap();
     }
     fs::create_dir(folder.path().join("box-form-factors-0123456789abcdef.bin")).unwrap();
-    let leftover = "box-form-factors-0123456789abcdee.bin.Zz.partial";
+    let leftover = "box-form-factors-0123456789abcdee.bin.radiosity-Zz12ab.partial";
     fs::write(folder.path().join(leftover), b"half").unwrap();
     assert_eq!(store.list().unwrap().len(), 1);
     assert_eq!(store.clean().unwrap().0, 2);

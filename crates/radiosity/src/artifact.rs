@@ -48,8 +48,7 @@ pub(crate) struct Recipe<R, M> {
 }
 
 /// Takes an artifact from the cache, or computes and caches it, one process at a time. A cache that
-/// cannot be used from the start costs a note and nothing else; what cannot be written any more is
-/// an error, with what there is kept.
+/// cannot be used, or not any more, costs a note and nothing else.
 pub(crate) fn obtain<T>(
     cache: Option<&Store>,
     observer: &dyn Observer,
@@ -83,10 +82,15 @@ pub(crate) fn obtain<T>(
     let lock = usable(store.lock(id, waiting), observer, id);
     // Whoever had the lock before may have made it meanwhile.
     let reason = match look() {
-        Ok(artifact) => return Ok((artifact, Origin::new(How::Cached, Some(path)))),
+        Ok(artifact) => {
+            drop(lock);
+            store.tidy(id);
+            return Ok((artifact, Origin::new(How::Cached, Some(path))));
+        }
         Err(reason) => reason,
     };
     let (artifact, is_cached) = (recipe.make)(lock.as_ref().map(|_| store))?;
+    store.check()?;
     let file = is_cached.then_some(path);
     Ok((artifact, Origin::new(How::Computed(reason), file)))
 }

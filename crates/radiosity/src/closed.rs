@@ -1,8 +1,9 @@
 //! Form factors whose rows sum to 1: a variant of those that were estimated, and a file of its own.
 
+use crate::artifact::{Sources, usable};
 use crate::error::Error;
 use crate::facts::FactorFacts;
-use crate::job::Job;
+use crate::job::{Job, not_kept};
 use radiosity_cache::{Batch, Id, Store};
 use radiosity_form_factors::{Closure, ClosureFacts, FormFactors};
 use radiosity_matrix::{SymmetricMatrix, packed_len};
@@ -32,11 +33,14 @@ pub(crate) fn closed(
         let exchange = exchange.expect("they are as many as before");
         return Ok((closure.complete(raw, exchange), false));
     };
-    draft.extend(batches(&closure, raw))?;
+    draft.extend(batches(&closure, raw), &|error, _| {
+        job.observer
+            .note(&not_kept(error, id, 0.0, Sources::Computed));
+    })?;
     let exchange = SymmetricMatrix::new(raw.exchange.size(), draft.values()?);
-    let made = closure.complete(raw, exchange.expect("all rows are written"));
-    draft.finish(&facts(&made))?;
-    Ok((made, true))
+    let made = closure.complete(raw, exchange.expect("all rows are made"));
+    let is_cached = usable(draft.finish(&facts(&made)), job.observer, id) == Some(true);
+    Ok((made, is_cached))
 }
 
 /// All rows, scaled, without a second copy in memory.
@@ -46,7 +50,7 @@ fn batches(closure: &Closure, raw: &FormFactors) -> impl Iterator<Item = Batch<(
         let mut values = raw.exchange.values()[range].to_vec();
         closure.apply(rows, &mut values);
         Batch {
-            values,
+            values: vec![values],
             state: None,
         }
     })

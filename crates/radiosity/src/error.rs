@@ -1,6 +1,6 @@
 //! What can go wrong, for people and for exit codes.
 
-use radiosity_cache::CacheError;
+use radiosity_cache::{CacheError, Changed};
 use radiosity_geometry::{Divisions, LEAST_SIZE, MeshError, count_patches};
 use radiosity_scene::{Mode, Scene, SceneError};
 use radiosity_solver::SolveError;
@@ -53,6 +53,11 @@ pub enum Error {
     /// Nor can the one that a command is about, which cannot do without.
     #[error("error: {0}\n   = help: choose another folder with --cache")]
     CacheFolder(CacheError),
+    /// A file of the cache was changed while a result was made of it.
+    #[error(
+        "error: {0}: the result is not written\n   = help: run the same command again, which makes anew what is damaged"
+    )]
+    Changed(#[from] Changed),
     /// A result cannot be written.
     #[error("error: cannot write {}: {error}", path.display())]
     Output {
@@ -73,7 +78,8 @@ impl Error {
             | Error::NoSuchScene { .. }
             | Error::NoCamera
             | Error::Input(_)
-            | Error::Mesh(_) => 3,
+            | Error::Mesh(_)
+            | Error::Changed(_) => 3,
             Error::Resources { .. } => 4,
             Error::Unsolvable { .. } => 5,
         }

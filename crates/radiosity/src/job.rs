@@ -7,11 +7,10 @@ use crate::facts::FactorFacts;
 use crate::observer::{Observer, Stage};
 use crate::prediction::prediction;
 use crate::resources::Needs;
-use radiosity_cache::{CacheError, Draft, Id, Store};
+use radiosity_cache::{CacheError, Draft, Id, Store, Unusable};
 use radiosity_form_factors::{Estimation, Estimator, FormFactors, Tally};
 use radiosity_geometry::Mesh;
 use radiosity_matrix::{SymmetricMatrix, packed_len};
-use std::io::ErrorKind;
 
 /// What is to be estimated.
 pub(crate) struct Job<'a> {
@@ -68,13 +67,18 @@ impl Job<'_> {
         };
         self.begin(&needs, draft.saved(), &estimation);
         let mut batches = Batches::after(finished, &estimation, self.observer);
-        let written = draft.extend(&mut batches);
+        let written = draft.extend(&mut batches, &|error, kept| {
+            let kept = kept as f64 / needs.pairs as f64;
+            self.observer.note(&not_kept(error, id, kept, sources));
+        });
         self.observer.end();
-        let saved = draft.saved();
-        written
-            .and_then(|()| self.finish(draft, &estimation, &batches.into_tally()))
-            .map(|made| (made, true))
-            .map_err(|error| interrupted(&error, saved as f64 / needs.pairs as f64, sources))
+        written?;
+        let exchange = SymmetricMatrix::new(self.mesh.patches.len(), draft.values()?);
+        let exchange = exchange.expect("all rows are made");
+        let made = estimation.complete(exchange, &batches.into_tally());
+        let facts = FactorFacts::new(self.mesh, self.estimator, &made);
+        let is_cached = usable(draft.finish(&facts), self.observer, id) == Some(true);
+        Ok((made, is_cached))
     }
 
     /// A new draft, if the cache can be used and the disk has room, without what an interrupted
@@ -118,7 +122,7 @@ impl Job<'_> {
         self.observer.advance(done);
     }
 
-    /// What an interrupted run has left, if it can be used.
+    /// What an interrupted run has left, or a note why it cannot be used.
     fn resume(
         &self,
         store: &Store,
@@ -128,46 +132,33 @@ impl Job<'_> {
     ) -> Option<(Draft, Finished)> {
         let size = self.mesh.patches.len();
         let count = packed_len(size) as u64;
-        let (draft, (rows, tally)) = Draft::resume::<Finished>(store, id, blank, count)?;
-        let first = rows as usize;
-        let is_whole = first == size || estimation.next_rows(first, 0).is_some();
-        let fits = draft.saved() == packed_len(first) as u64;
-        (fits && is_whole).then_some((draft, (rows, tally)))
-    }
-
-    /// All rows are written: maps them, and adds what they make together.
-    fn finish(
-        &self,
-        draft: Draft,
-        estimation: &Estimation<'_>,
-        tally: &Tally,
-    ) -> Result<FormFactors, CacheError> {
-        let exchange = SymmetricMatrix::new(self.mesh.patches.len(), draft.values()?);
-        let made = estimation.complete(exchange.expect("all rows are written"), tally);
-        draft.finish(&FactorFacts::new(self.mesh, self.estimator, &made))?;
-        Ok(made)
+        let resumed = Draft::resume::<Finished>(store, id, blank, count).and_then(|resumed| {
+            let is_whole = resumed.as_ref().is_none_or(|(draft, (rows, _))| {
+                let first = *rows as usize;
+                let is_end = first == size || estimation.next_rows(first, 0).is_some();
+                is_end && draft.saved() == packed_len(first) as u64
+            });
+            is_whole.then_some(resumed).ok_or(Unusable::Version)
+        });
+        let not_used = |why: &Unusable| {
+            self.observer.note(&format!(
+                "what an interrupted run has left of the {} is not used: {why}",
+                id.stage
+            ));
+        };
+        resumed.inspect_err(not_used).ok().flatten()
     }
 }
 
-/// Nothing that was saved is lost, unless everything is to be computed anew.
-fn interrupted(error: &CacheError, saved: f64, sources: Sources) -> Error {
-    let goes_on = saved > 0.0 && sources == Sources::Cached;
-    let from = if goes_on {
-        format!(", which goes on at {:.0} %", 100.0 * saved)
-    } else {
-        String::new()
-    };
-    let mend = match error.error.kind() {
-        ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
-            "make room there"
-        }
-        _ => "see to that",
-    };
-    Error::Resources {
-        problem: error.to_string(),
-        remedy: format!(
-            "{mend} and run the same command again{from}; or use another folder with --cache, or \
-             --no-cache"
+/// Says that the rest is made in memory, and what the next run has of it.
+pub(crate) fn not_kept(error: &CacheError, id: &Id<'_>, kept: f64, sources: Sources) -> String {
+    let stage = id.stage;
+    let lost = format!("{error}: the {stage} are finished in memory and not kept");
+    match sources {
+        Sources::Cached if kept > 0.0 => format!(
+            "{lost}, but for {:.0} % of them, where the next run goes on",
+            100.0 * kept
         ),
+        _ => lost,
     }
 }

@@ -125,6 +125,11 @@ impl<'a> Pipeline<'a> {
         self.scene
     }
 
+    /// The cache, if there is one.
+    pub(crate) fn cache(&self) -> Option<&'a Store> {
+        self.cache
+    }
+
     /// The patches.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh

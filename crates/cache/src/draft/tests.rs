@@ -1,12 +1,14 @@
 //! Whatever is interrupted, cut off or damaged: the artifact has the same bytes in the end.
 
-use super::{Batch, Draft};
+use super::{Batch, Draft, Unusable};
 use crate::cache_file::{journal_of, partial_of};
 use crate::digests::BLOCK_VALUES;
-use crate::{Id, Key, Miss, Store};
+use crate::{CacheError, Id, Key, Miss, Store, format};
 use proptest::prelude::*;
 use serde::{Serialize, Serializer};
 use std::fs::{self, File, OpenOptions};
+use std::path::Path;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
@@ -37,8 +39,8 @@ fn expected(values: &[f32]) -> Vec<u8> {
 /// Goes on with a draft, or begins it, and says where it did.
 fn draft(store: &Store, count: usize) -> (Draft, Option<u64>) {
     match Draft::resume::<u64>(store, &id(1), &BLANK, count as u64) {
-        Some((draft, state)) => (draft, Some(state)),
-        None => (
+        Ok(Some((draft, state))) => (draft, Some(state)),
+        _ => (
             Draft::begin(store, &id(1), &BLANK, count as u64).unwrap(),
             None,
         ),
@@ -50,7 +52,7 @@ fn finished(store: &Store, values: &[f32]) -> (Vec<u8>, Option<u64>) {
     let (mut draft, begun) = draft(store, values.len());
     draft.append(&values[draft.written as usize..]).unwrap();
     assert_eq!(draft.values().unwrap().as_ref(), values);
-    draft.finish(&FACTS).unwrap();
+    assert!(draft.finish(&FACTS).unwrap());
     let left = fs::read_dir(store.folder()).unwrap().count();
     assert_eq!(left, 1, "nothing but the artifact stays");
     (fs::read(store.path(&id(1))).unwrap(), begun)
@@ -67,7 +69,11 @@ fn interrupted(values: &[f32], saved: usize, more: usize) -> (TempDir, Store) {
     (folder, store)
 }
 
-fn flip(path: &std::path::Path, byte: usize) {
+fn no_failure(error: &CacheError, _: u64) {
+    panic!("{error}");
+}
+
+fn flip(path: &Path, byte: usize) {
     let mut bytes = fs::read(path).unwrap();
     let byte = byte % bytes.len();
     bytes[byte] ^= 1;
@@ -88,7 +94,7 @@ fn a_draft_becomes_the_artifact_that_is_written_at_once() {
 /// Batches of one value each, without checkpoints.
 fn ones(count: u64) -> impl Iterator<Item = Batch<u64>> {
     let one = |_| Batch {
-        values: vec![1.0],
+        values: vec![vec![1.0]],
         state: None,
     };
     (0..count).map(one)
@@ -120,30 +126,92 @@ fn batches_are_written_while_the_next_are_made() {
     let batch = |k: u32| {
         next_is_begun.store(k == 1, Ordering::Release);
         Batch {
-            values: vec![k as f32],
+            values: vec![vec![k as f32]],
             state: (k == 0).then_some(OnceTheNextIsBegun(&next_is_begun)),
         }
     };
-    draft.extend((0..2).map(batch)).unwrap();
+    draft.extend((0..2).map(batch), &no_failure).unwrap();
     assert_eq!(draft.values().unwrap().as_ref(), [0.0, 1.0]);
     assert_eq!(draft.saved(), 1);
 }
 
+/// Makes the rest of a draft after a checkpoint at 50 of 100 values; gives what was told of it.
+fn rest_after_failure(draft: &mut Draft) -> Vec<(String, u64)> {
+    let told = Mutex::new(Vec::new());
+    let tell = |error: &CacheError, kept| told.lock().unwrap().push((error.to_string(), kept));
+    let batch = |k: usize| Batch {
+        values: vec![vec![k as f32]],
+        state: Some(k as u64 + 1),
+    };
+    draft.extend((50..100).map(batch), &tell).unwrap();
+    told.into_inner().unwrap()
+}
+
+/// Whoever begins it goes on in memory; a draft with a checkpoint is left or not.
 #[test]
-fn nothing_more_is_made_when_writing_fails() {
+fn what_cannot_be_written_is_made_in_memory() {
+    let values = values(100);
+    let (_folder, store) = interrupted(&values, 50, 0);
+    let (mut draft, _) = draft(&store, 100);
+    draft.file = File::open(partial_of(&store.path(&id(1)))).unwrap();
+    let told = rest_after_failure(&mut draft);
+    assert_eq!(told.len(), 1, "told once");
+    assert!(
+        told[0].0.contains("cannot write") && told[0].1 == 50,
+        "{told:?}"
+    );
+    assert_eq!(draft.values().unwrap().as_ref(), values);
+    assert!(!draft.finish(&FACTS).unwrap());
+    assert_eq!(finished(&store, &values).1, Some(50), "the next goes on");
+}
+
+#[test]
+fn a_folder_that_vanishes_costs_the_draft_alone() {
+    let values = values(100);
+    let (folder, store) = interrupted(&values, 50, 0);
+    let (mut draft, _) = draft(&store, 100);
+    fs::remove_dir_all(folder.path()).unwrap();
+    let told = rest_after_failure(&mut draft);
+    assert!(told[0].0.contains("journal") && told[0].1 == 0, "{told:?}");
+    assert_eq!(draft.values().unwrap().as_ref(), values);
+    assert!(!draft.finish(&FACTS).unwrap());
+}
+
+#[test]
+fn a_folder_that_vanishes_at_the_end_costs_the_draft_alone() {
+    let values = values(100);
+    let (folder, store) = interrupted(&values, 50, 50);
+    let (mut draft, _) = draft(&store, 100);
+    draft.append(&values[50..]).unwrap();
+    fs::remove_dir_all(folder.path()).unwrap();
+    // Another process is as far as this one was.
+    fs::create_dir(folder.path()).unwrap();
+    fs::write(partial_of(&store.path(&id(1))), b"another's").unwrap();
+    let made = draft.values().unwrap();
+    assert!(draft.finish(&FACTS).is_err());
+    assert_eq!(made.as_ref(), values);
+    assert!(
+        !store.path(&id(1)).exists(),
+        "what is another's is not named"
+    );
+}
+
+/// A file that loses what was written to it.
+#[test]
+fn values_that_are_lost_are_an_error_and_nothing_more_is_made() {
     let folder = TempDir::new().unwrap();
     let store = Store::new(folder.path());
     let (mut draft, _) = draft(&store, 1000);
-    draft.extend(ones(3)).unwrap();
+    draft.extend(ones(3), &no_failure).unwrap();
+    draft.file.set_len(draft.start).unwrap();
     draft.file = File::open(partial_of(&store.path(&id(1)))).unwrap();
     let mut made = 0;
-    let failed = draft.extend(ones(997).inspect(|_| made += 1));
-    assert_eq!(failed.unwrap_err().action, "write");
+    let failed = draft.extend(ones(997).inspect(|_| made += 1), &no_failure);
+    assert_eq!(failed.unwrap_err().action, "read");
     assert!(
         made <= 2,
         "one fails, one finds that nobody takes it, but {made} were made"
     );
-    assert_eq!(draft.saved(), 0);
 }
 
 #[test]
@@ -151,16 +219,66 @@ fn nothing_more_is_made_when_writing_fails() {
 fn more_values_than_was_said_are_a_bug() {
     let folder = TempDir::new().unwrap();
     let (mut draft, _) = draft(&Store::new(folder.path()), 2);
-    draft.extend(ones(3)).unwrap();
+    draft.extend(ones(3), &no_failure).unwrap();
+}
+
+/// Why a draft with a checkpoint at half of 100 values is not taken after something was done to its
+/// values and its journal.
+fn refusal_after(change: impl FnOnce(&Path, &Path)) -> String {
+    let (_folder, store) = interrupted(&values(100), 50, 0);
+    let artifact = store.path(&id(1));
+    change(&partial_of(&artifact), &journal_of(&artifact));
+    let resumed = Draft::resume::<u64>(&store, &id(1), &BLANK, 100);
+    resumed.map(drop).unwrap_err().to_string()
+}
+
+#[test]
+fn each_reason_to_begin_anew_is_named() {
+    assert_eq!(
+        refusal_after(|_, journal| flip(journal, 40)),
+        "its journal is damaged"
+    );
+    assert_eq!(
+        refusal_after(|_, journal| fs::write(journal, b"short").unwrap()),
+        "its journal is damaged"
+    );
+    assert_eq!(
+        refusal_after(|_, journal| fs::remove_file(journal).unwrap()),
+        "it has no checkpoint"
+    );
+    let older = format::sealed(&format::encode(&([0u8; 32], 448u64)));
+    assert_eq!(
+        refusal_after(|_, journal| fs::write(journal, older).unwrap()),
+        "another version of this program wrote it"
+    );
+    let cut = |partial: &Path, _: &Path| {
+        let file = OpenOptions::new().write(true).open(partial).unwrap();
+        file.set_len(file.metadata().unwrap().len() - 8).unwrap();
+    };
+    assert!(refusal_after(cut).starts_with("it is cut off at byte"));
+    let last = |partial: &Path, _: &Path| {
+        let last = fs::metadata(partial).unwrap().len() - 1;
+        flip(partial, last as usize);
+    };
+    assert!(refusal_after(last).starts_with("it is damaged somewhere from byte"));
+    let missing = refusal_after(|partial, _| fs::remove_file(partial).unwrap());
+    assert!(missing.starts_with("it cannot be read: "), "{missing}");
 }
 
 #[test]
 fn drafts_of_other_inputs_are_not_taken() {
     let (_folder, store) = interrupted(&values(100), 50, 0);
-    let resumes = |id, count| Draft::resume::<u64>(&store, &id, &BLANK, count).is_some();
-    assert!(!resumes(id(2), 100));
-    assert!(!resumes(id(1), 101));
-    assert!(resumes(id(1), 100));
+    let resumed = |id: &Id<'_>, count| {
+        let resumed = Draft::resume::<u64>(&store, id, &BLANK, count);
+        resumed.map(|draft| draft.is_some())
+    };
+    assert!(!resumed(&id(2), 100).unwrap(), "there is none");
+    assert!(matches!(resumed(&id(1), 101), Err(Unusable::OtherInputs)));
+    assert!(resumed(&id(1), 100).unwrap());
+    for of in [partial_of, journal_of] {
+        fs::rename(of(&store.path(&id(1))), of(&store.path(&id(2)))).unwrap();
+    }
+    assert!(matches!(resumed(&id(2), 100), Err(Unusable::OtherInputs)));
 }
 
 #[test]
@@ -203,9 +321,11 @@ proptest! {
             let (mut draft, begun) = draft(&store, values.len());
             let at = draft.written;
             prop_assert_eq!(begun.unwrap_or(0), at);
-            let next = values[at as usize..at as usize + length].to_vec();
+            let next = &values[at as usize..at as usize + length];
+            let pieces = [&next[..length / 3], &next[length / 3..]].map(<[f32]>::to_vec);
             let state = Some(at + length as u64);
-            draft.extend([Batch { values: next, state }]).unwrap();
+            let batch = Batch { values: pieces.into(), state };
+            draft.extend([batch], &no_failure).unwrap();
         }
         prop_assert!(finished(&store, &values).0 == expected(&values));
     }

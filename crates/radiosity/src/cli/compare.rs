@@ -111,7 +111,7 @@ fn pictures(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Er
     let errors = compare_pictures(&found.image, &reference, map.as_ref(), screen.exposure);
     let named = errors.map_err(|error| Error::Input(error.to_string()))?;
     if let Some(path) = &args.difference {
-        write(path, &difference(path, &found, &reference))?;
+        write(path, None, &difference(path, &found, &reference))?;
     }
     let counted = named.last().map_or(0, |(_, all)| all.values / 3);
     let clamped = reference.image.pixels.len() - counted;

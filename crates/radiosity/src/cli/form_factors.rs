@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::factor_export::{By, FactorTable};
 use crate::pipeline::Pipeline;
 use crate::report::Report;
+use radiosity_cache::Store;
 use std::path::{Path, PathBuf};
 
 pub(super) fn run(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
@@ -39,7 +40,7 @@ pub(super) fn run(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
                 ByArg::Group => By::Group,
             };
             let table = FactorTable::new(&scene, pipeline.mesh(), &made.form_factors, by)?;
-            let rows_path = export_table(&table, path, args)?;
+            let rows_path = export_table(&table, path, pipeline.cache(), args)?;
             report.output("export", path);
             report.output("export_rows", &rows_path);
         }
@@ -62,10 +63,11 @@ fn check_export(path: &Path, args: &FormFactorsCommand) -> Result<(), Error> {
 fn export_table(
     table: &FactorTable<'_>,
     path: &Path,
+    cache: Option<&Store>,
     args: &FormFactorsCommand,
 ) -> Result<PathBuf, Error> {
     let mut dropped = None;
-    write_by(path, |file| match (args.sparse, args.by) {
+    write_by(path, cache, |file| match (args.sparse, args.by) {
         _ if is_npy(path) => table.write_npy(file),
         (None, ByArg::Patch) => table.write_matrix(file),
         (least, _) => {
@@ -75,7 +77,7 @@ fn export_table(
         }
     })?;
     let rows_path = path.with_extension("rows.csv");
-    write_by(&rows_path, |file| {
+    write_by(&rows_path, cache, |file| {
         table.write_rows(dropped.as_deref(), file)
     })?;
     Ok(rows_path)

@@ -22,6 +22,7 @@ mod run;
 mod save;
 mod series;
 mod show_args;
+mod signals;
 mod site;
 mod solver_args;
 pub(crate) mod terminal;
@@ -46,6 +47,6 @@ Exit codes:
   0  done; also with warnings, such as a solution that did not reach its residual
   1  a file cannot be written, or another failure
   2  the command line is wrong
-  3  the scene or another input is wrong
+  3  the scene or another input is wrong, or a cached file was changed while in use
   4  the machine has too little memory or disk
   5  the system of equations has no solution";

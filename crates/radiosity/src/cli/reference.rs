@@ -92,7 +92,7 @@ fn table(
     let cells = cell_means(scene, &mesh, args.spp, args.seed, &advance);
     terminal.end();
     let path = folder.join(format!("{}-reference.csv", scene.name));
-    write(&path, &reference_table(scene, &mesh, &cells).to_csv())?;
+    write(&path, None, &reference_table(scene, &mesh, &cells).to_csv())?;
     let seconds = start.elapsed().as_secs_f64();
     terminal.line(&format!(
         "{:<14}{} patches, {} walks each{seconds:>14.2} s",
@@ -235,7 +235,7 @@ fn save(
     let mut paths = BTreeMap::new();
     for (name, ending, bytes) in files {
         let path = folder.join(format!("{}-{ending}", scene.name));
-        write(&path, &bytes)?;
+        write(&path, None, &bytes)?;
         paths.insert(name, path.display().to_string());
     }
     Ok(paths)

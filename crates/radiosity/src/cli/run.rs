@@ -8,6 +8,7 @@ use super::display;
 use super::form_factors;
 use super::inspect;
 use super::reference;
+use super::signals::remove_unfinished_on_signals;
 use super::site::Site;
 use super::solver_args::SolveArgs;
 use super::terminal::{Terminal, tell};
@@ -17,7 +18,7 @@ use crate::export::radiosity_table;
 use crate::pipeline::{PatchLight, Pipeline};
 use crate::plot::convergence_plot;
 use crate::report::Report;
-use radiosity_cache::{Store, replace_file_by};
+use radiosity_cache::{Changed, Store, replace_file_by};
 use radiosity_simd::InstructionSet;
 use std::io;
 use std::path::Path;
@@ -26,6 +27,7 @@ use std::time::Instant;
 
 /// Runs a command and prints what it has to say; the exit code is 0, or that of the error.
 pub fn run(command: &Command, site: &Site) -> ExitCode {
+    remove_unfinished_on_signals();
     if let Some(wish) = InstructionSet::unknown_wish() {
         let best = InstructionSet::current().name();
         tell(&format!(
@@ -71,6 +73,7 @@ fn solve(args: &SolveCommand, site: &Site, sources: Sources) -> Result<(), Error
         if let Some(path) = &args.export {
             write(
                 path,
+                pipeline.cache(),
                 &radiosity_table(&scene, pipeline.mesh(), &pipeline.mean_radiosity(&light))
                     .to_csv(),
             )?;
@@ -78,7 +81,8 @@ fn solve(args: &SolveCommand, site: &Site, sources: Sources) -> Result<(), Error
         }
         if let Some(path) = &args.plot {
             let made = pipeline.form_factors(Sources::Cached)?.form_factors;
-            write(path, convergence_plot(&pipeline, &made)?.as_bytes())?;
+            let plot = convergence_plot(&pipeline, &made)?;
+            write(path, pipeline.cache(), plot.as_bytes())?;
             report.output("plot", path);
         }
         report.finish()
@@ -152,17 +156,61 @@ pub(super) fn make_folder(folder: &Path) -> Result<(), Error> {
     })
 }
 
-pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    write_by(path, |file| file.write_all(bytes))
+/// Writes a result. `cache` is that of what it was made of, if it has one.
+pub(super) fn write(path: &Path, cache: Option<&Store>, bytes: &[u8]) -> Result<(), Error> {
+    write_by(path, cache, |file| file.write_all(bytes))
 }
 
 /// The same for what is written bit by bit.
 pub(super) fn write_by(
     path: &Path,
+    cache: Option<&Store>,
     write: impl FnOnce(&mut dyn io::Write) -> io::Result<()>,
 ) -> Result<(), Error> {
-    replace_file_by(path, write).map_err(|error| Error::Output {
-        path: path.to_owned(),
-        error,
+    let written = replace_file_by(path, |file| {
+        write(file)?;
+        cache.map_or(Ok(()), Store::check).map_err(io::Error::other)
+    });
+    written.map_err(|error| match error.downcast::<Changed>() {
+        Ok(changed) => Error::Changed(changed),
+        Err(error) => Error::Output {
+            path: path.to_owned(),
+            error,
+        },
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use radiosity_cache::{Id, Key};
+    use std::fs::OpenOptions;
+
+    #[test]
+    fn nothing_is_written_of_a_file_that_was_changed_meanwhile() {
+        let folder = tempfile::TempDir::new().unwrap();
+        let store = Store::new(folder.path().join("cache"));
+        let id = Id {
+            scene: "box",
+            stage: "form-factors",
+            key: Key::of("form-factors", 1, &()),
+        };
+        // Too large to be read at once.
+        store.write(&id, &(), &vec![0.0; 17 << 20]).unwrap();
+        let in_use = store.read::<()>(&id).unwrap().into_values().unwrap();
+        let path = folder.path().join("result.csv");
+        write(&path, Some(&store), b"good").unwrap();
+        let file = OpenOptions::new().append(true).open(store.path(&id));
+        io::Write::write_all(&mut file.unwrap(), b"more").unwrap();
+        let refused = write(&path, Some(&store), b"bad").unwrap_err();
+        drop(in_use);
+        assert_eq!(refused.exit_code(), 3);
+        assert!(
+            refused
+                .to_string()
+                .contains("was changed while it was in use")
+        );
+        assert_eq!(std::fs::read(&path).unwrap(), b"good");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
+    }
 }

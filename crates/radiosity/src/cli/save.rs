@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::inspect::EstimatorReport;
 use crate::pipeline::Pipeline;
 use crate::settings::estimator;
+use radiosity_cache::Store;
 #[cfg(feature = "openexr")]
 use radiosity_renderer::encode_exr;
 use radiosity_renderer::{
@@ -19,6 +20,7 @@ use std::path::{Path, PathBuf};
 /// Where pictures go, and what they say of themselves.
 pub(super) struct Folder<'a> {
     path: &'a Path,
+    cache: Option<&'a Store>,
     formats: Vec<FormatArg>,
     scene: String,
     metadata: Vec<(&'static str, String)>,
@@ -31,7 +33,7 @@ impl<'a> Folder<'a> {
     pub(super) fn new(
         path: &'a Path,
         formats: &'a [FormatArg],
-        pipeline: &Pipeline<'_>,
+        pipeline: &Pipeline<'a>,
         is_preview: bool,
     ) -> Folder<'a> {
         let scene = pipeline.scene();
@@ -45,6 +47,7 @@ impl<'a> Folder<'a> {
         let is_new = |k: &usize| !formats[..*k].contains(&formats[*k]);
         Folder {
             path,
+            cache: pipeline.cache(),
             formats: (0..formats.len())
                 .filter(is_new)
                 .map(|k| formats[k])
@@ -73,7 +76,7 @@ impl<'a> Folder<'a> {
         for (index, &format) in self.formats.iter().enumerate() {
             let (label, ending) = format.label_and_ending();
             let path = self.path.join(format!("{}-{name}.{ending}", self.scene));
-            write(&path, &self.encoded(name, print, format))?;
+            write(&path, self.cache, &self.encoded(name, print, format))?;
             let name = if index == 0 {
                 name.to_owned()
             } else {
@@ -88,7 +91,7 @@ impl<'a> Folder<'a> {
     pub(super) fn save_sheet(&mut self, sheet: &Picture, transfer: Transfer) -> Result<(), Error> {
         let path = self.path.join(format!("{}-sheet.png", self.scene));
         let bytes = encode(sheet, PictureFormat::Png(transfer), &self.metadata);
-        write(&path, &bytes)?;
+        write(&path, self.cache, &bytes)?;
         self.written.insert("sheet".to_owned(), path);
         Ok(())
     }

@@ -119,7 +119,11 @@ impl Pipeline<'_> {
     pub(super) fn untouched_form_factors(&self) -> Origin {
         let id = self.form_factors_id();
         let is_there = |store: &&Store| store.read::<FactorFacts>(&id).is_ok();
-        let file = self.cache.filter(is_there).map(|store| store.path(&id));
+        let store = self.cache.filter(is_there);
+        let file = store.map(|store| store.path(&id));
+        if let Some(store) = store {
+            store.tidy(&id);
+        }
         Origin {
             how: if file.is_some() {
                 How::Cached

@@ -155,6 +155,7 @@ impl Pipeline<'_> {
             return Err(Miss::Header);
         }
         let (lights, direct) = by_light(values.as_ref(), self.lights.len()).ok_or(Miss::Header)?;
+        values.check()?;
         let patches = self.mesh.patches.len();
         if lights.iter().any(|light| light.len() != patches) || facts.visible.len() != patches {
             return Err(Miss::Header);
@@ -269,6 +270,7 @@ impl Start {
         let is_sound = facts.are_sound(values.as_ref());
         let lights = by_light(values.as_ref(), facts.lights.len()).filter(|_| is_sound);
         let (lights, _) = lights.ok_or_else(|| unusable(&Miss::Header))?;
+        values.check().map_err(|changed| unusable(&changed))?;
         Ok(Start {
             key,
             residuals: facts.report.residuals,

@@ -21,6 +21,7 @@ fn factor_facts() -> FactorFacts {
         estimator: Estimator::Accurate { tolerance: 1e-3 },
         patches_of_surfaces: vec![2, 3],
         exported_as: vec![4, 3, 2, 1, 0],
+        areas: vec![1.0; PATCHES],
         rows: vec![RowFacts::default(); PATCHES],
         classes: Some(Classes::default()),
         closure: None,
@@ -40,7 +41,7 @@ fn solution_facts() -> SolutionFacts {
             relaxation: None,
             energies: vec![Energy::default()],
         },
-        rows: RowSummary::new(&factor_facts().rows, None, None),
+        rows: RowSummary::new((&[1.0; PATCHES], &factor_facts().rows), |_| 0, None, None),
         lights: vec!["lamp".to_owned()],
         visible: vec![1.0; PATCHES],
     }
