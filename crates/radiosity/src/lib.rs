@@ -29,6 +29,7 @@ mod artifact;
 mod batches;
 pub mod cli;
 mod closed;
+mod darkness;
 mod error;
 mod export;
 mod factor_export;

@@ -130,6 +130,11 @@ impl<'a> Pipeline<'a> {
         self.cache
     }
 
+    /// Who is told what happens.
+    pub(crate) fn observer(&self) -> &dyn Observer {
+        self.observer
+    }
+
     /// The patches.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh

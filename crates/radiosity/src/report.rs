@@ -2,6 +2,7 @@
 
 use crate::artifact::{How, Origin};
 use crate::cli::terminal::{Terminal, say_json};
+use crate::darkness;
 use crate::error::Error;
 use crate::lines::{
     class_line, closed_line, closure_line, error_line, indented, missed_line, row_line, scene_line,
@@ -93,6 +94,8 @@ pub(crate) struct RowReport {
     closure: Option<ClosureFacts>,
 }
 
+/// In a closed scene patches see fronts alone, but for a few rays that meet an edge.
+const OPEN: f64 = 0.001;
 /// So many files are told one by one.
 const MOST_TOLD: usize = 12;
 
@@ -159,6 +162,13 @@ impl<'a> Report<'a> {
         }
         if pipeline.scene().closed {
             self.terminal.line(&indented(&closed_line(rows)));
+            if rows.backs + rows.background > OPEN
+                && let Some(why) = darkness::openings(pipeline.scene(), pipeline.mesh())
+            {
+                self.terminal.line(&indented(&format!(
+                    "warning: the scene calls itself closed and is not: {why}"
+                )));
+            }
         }
         if let Some(classes) = &rows.classes {
             let patches = pipeline.mesh().patches.len();
@@ -192,9 +202,10 @@ impl<'a> Report<'a> {
         });
     }
 
-    pub(crate) fn solution(&mut self, solved: &Solved) {
+    pub(crate) fn solution(&mut self, solved: &Solved, pipeline: &Pipeline<'_>) {
         self.stage_line("solution", &solved.origin);
-        for line in solution_lines(solved) {
+        let light = darkness::light_lines(pipeline, &solved.energy);
+        for line in solution_lines(solved).into_iter().chain(light) {
             self.terminal.line(&indented(&line));
         }
         self.json.stages.solve = Some(SolveReport::of(solved));

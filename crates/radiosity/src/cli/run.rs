@@ -107,7 +107,7 @@ pub(super) fn light(
     let solved = pipeline.solution_after(sources, &mut |origin, rows| {
         report.form_factors(origin, rows, pipeline);
     })?;
-    report.solution(&solved);
+    report.solution(&solved, pipeline);
     Ok((solved.light, Some(solved.form_factors.how)))
 }
 

@@ -6,8 +6,9 @@ use super::look::Look;
 use super::print::{Palette, Print};
 use super::save::Folder;
 use super::view_args::Shot;
+use crate::darkness;
 use crate::error::Error;
-use crate::pipeline::{PatchLight, Pipeline};
+use crate::pipeline::{PatchLight, Pipeline, Quantity};
 use radiosity_renderer::{
     Image, Outlines, Picture, Renderer, Shading, Transfer, contact_sheet, thumbnail_width,
 };
@@ -44,6 +45,10 @@ impl Series<'_> {
             for shot in self.shots {
                 self.glance(look, &renderer, shot, fixed.as_ref());
                 let images = self.pipeline.look(&renderer, &shot.camera)?;
+                let is_black = !images.iter().any(Image::shows_something);
+                if is_black && look.quantity == Quantity::Radiosity {
+                    self.say_why_black(shot);
+                }
                 let outlines = self.outlines(look, shot);
                 for (image, &shading) in images.iter().zip(&shadings) {
                     let palette = self.palette(look, image, fixed.as_ref());
@@ -72,6 +77,14 @@ impl Series<'_> {
             self.folder.save_sheet(&sheet, transfer)?;
         }
         Ok(())
+    }
+
+    fn say_why_black(&self, shot: &Shot) {
+        let of_view = shot.name.as_ref();
+        let of_view = of_view.map_or(String::new(), |name| format!(" of view `{name}`"));
+        let why = darkness::of_picture(self.pipeline, &shot.camera, self.size());
+        let warning = format!("warning: the picture{of_view} is black: {why}");
+        self.pipeline.observer().note(&warning);
     }
 
     /// Shows a small picture in the terminal.

@@ -1,0 +1,172 @@
+//! What is said of black pictures, and of closed scenes that are not.
+
+mod place;
+
+use place::Place;
+
+/// A box of 2 x 3 x 1 with a lamp under its lid, seen from the middle; faces turned inwards.
+const BOX: [(&str, [u32; 4]); 5] = [
+    ("floor", [0, 1, 3, 2]),
+    ("left", [0, 2, 6, 4]),
+    ("right", [1, 5, 7, 3]),
+    ("front", [0, 4, 5, 1]),
+    ("back", [2, 3, 7, 6]),
+];
+
+fn corner(k: u32) -> [f64; 3] {
+    [
+        2.0 * f64::from(k & 1),
+        3.0 * f64::from(k >> 1 & 1),
+        f64::from(k >> 2),
+    ]
+}
+
+struct Room {
+    inwards: bool,
+    emission: f64,
+    look_at: [f64; 3],
+}
+
+const ORDINARY: Room = Room {
+    inwards: true,
+    emission: 1.0,
+    look_at: [1.0, 3.0, 0.5],
+};
+
+fn place(room: &Room) -> Place {
+    let quad = |name: &str, corners: [[f64; 3]; 4], material: &str| {
+        format!("[[surfaces]]\nname = \"{name}\"\nmaterial = \"{material}\"\nquad = {corners:?}\n")
+    };
+    let wall = |&(name, corners): &(&str, [u32; 4])| {
+        let mut corners = corners.map(corner);
+        if !room.inwards {
+            corners.reverse();
+        }
+        quad(name, corners, "white")
+    };
+    let lamp = [
+        [0.5, 0.5, 1.0],
+        [0.5, 2.5, 1.0],
+        [1.5, 2.5, 1.0],
+        [1.5, 0.5, 1.0],
+    ];
+    let walls: String = BOX.iter().map(wall).collect();
+    let text = format!(
+        "[camera]\nposition = [1, 1.5, 0.5]\nlook_at = {:?}\nup = [0.1, 0.2, 1]\nvertical_fov = 40\n\
+         [image]\nwidth = 12\nheight = 8\n[discretization]\ndivisions = 2\n\
+         [materials.white]\nreflectance = 0.5\n[materials.lamp]\nreflectance = 0\nemission = {}\n{walls}{}",
+        room.look_at,
+        room.emission,
+        quad("lamp", lamp, "lamp"),
+    );
+    let place = Place::new();
+    place.write("room.toml", &text);
+    place
+}
+
+fn said(place: &Place, command: &str) -> String {
+    let (code, stdout, stderr) = place.run(command);
+    assert_eq!(code, 0, "{stderr}");
+    stdout + &stderr
+}
+
+const RENDER: &str = "render room.toml --no-cache --shading constant --output out";
+
+#[test]
+fn nothing_is_said_of_ordinary_pictures() {
+    let said = said(&place(&ORDINARY), RENDER);
+    assert!(!said.contains("warning"), "{said}");
+}
+
+#[test]
+fn walls_turned_outwards_are_named() {
+    let place = place(&Room {
+        inwards: false,
+        ..ORDINARY
+    });
+    let found = said(&place, RENDER);
+    assert!(found.contains("% of the light meets backs"), "{found}");
+    assert!(
+        found.contains("`back`, `floor`, `front`, `left`, `right` turn their backs"),
+        "{found}"
+    );
+    assert!(
+        found.contains("is black: the camera sees nothing but backs, of `back`"),
+        "{found}"
+    );
+    let solved = said(&place, "solve room.toml --no-cache");
+    assert!(solved.contains("turn their backs"), "{solved}");
+}
+
+#[test]
+fn scenes_without_light_are_told() {
+    let place_of = |emission| {
+        place(&Room {
+            emission,
+            ..ORDINARY
+        })
+    };
+    for command in [RENDER, "solve room.toml --no-cache", "check room.toml"] {
+        let found = said(&place_of(0.0), command);
+        assert!(found.contains("warning: nothing emits light"), "{found}");
+    }
+    let dark = said(&place_of(1.0), "solve room.toml --no-cache --dim lamp=0");
+    assert!(
+        dark.contains("warning: all lights are dimmed to nothing"),
+        "{dark}"
+    );
+}
+
+#[test]
+fn cameras_that_see_nothing_are_told() {
+    let beside = place(&ORDINARY);
+    let text = std::fs::read_to_string(beside.path("room.toml")).unwrap();
+    beside.write(
+        "room.toml",
+        &text
+            .replace("[1, 1.5, 0.5]", "[1, 9, 0.5]")
+            .replace("[1.0, 3.0, 0.5]", "[1, 12, 0.5]"),
+    );
+    let found = said(&beside, RENDER);
+    assert!(
+        found.contains("is black: the camera sees nothing: move it"),
+        "{found}"
+    );
+}
+
+/// View3D's scenes say whether they are closed.
+#[test]
+fn closed_scenes_with_holes_or_turned_walls_are_told() {
+    let place = Place::new();
+    let scene = |walls: &[(&str, [u32; 4])]| {
+        let vertices = (0..8).map(|k| {
+            let [x, y, z] = corner(k);
+            format!("V {} {x} {y} {z}\n", k + 1)
+        });
+        let surfaces = walls.iter().zip(1..).map(|((name, corners), number)| {
+            let [a, b, c, d] = corners.map(|corner| corner + 1);
+            format!("S {number} {a} {b} {c} {d} 0 0 0.9 {name}\n")
+        });
+        let parts: [String; 2] = [vertices.collect(), surfaces.collect()];
+        format!("T a box\nC encl=1\nF 3\n{}End\n", parts.concat())
+    };
+    let lid = ("lid", [4, 6, 7, 5]);
+    let mut walls = BOX.to_vec();
+    place.write("box.vs3", &scene(&walls));
+    let run = |place: &Place| said(place, "form-factors box.vs3 --no-cache");
+    let found = run(&place);
+    assert!(
+        found.contains("calls itself closed and is not: edges of `back`, `front`, `left`, `right`"),
+        "{found}"
+    );
+    walls.push(lid);
+    place.write("box.vs3", &scene(&walls));
+    assert!(!run(&place).contains("warning"));
+    walls[5].1.reverse();
+    place.write("box.vs3", &scene(&walls));
+    let found = run(&place);
+    assert!(
+        found.contains("`lid` face the other way than their neighbours"),
+        "{found}"
+    );
+}
