@@ -13,13 +13,15 @@ use crate::part::Part;
 use crate::regular::{Regular, Scratch};
 use crate::surroundings::{Surroundings, around_free_part, look_around};
 use crate::tally::{Classes, RowError, Tally};
-use crate::tiles::{Tile, Tiling};
+use crate::tiles::{Group, Tile, Tiling};
 use crate::{Estimator, FormFactors};
 use radiosity_geometry::{Mesh, Patch};
 use radiosity_matrix::{SymmetricMatrix, packed_len, rows_mut};
 use radiosity_simd::LANES;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
+use std::time::{Duration, Instant};
 
 /// Estimates all form factors of a mesh. `progress` is told how many further pairs are done,
 /// from any thread.
@@ -39,6 +41,20 @@ pub struct Estimation<'a> {
     pub(crate) areas: Vec<f64>,
     pub(crate) scale: f64,
 }
+
+/// Rows on their way: see [`Estimation::begin`].
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Begun {
+    /// Which rows.
+    pub rows: Range<usize>,
+    /// Their values, one row after the other.
+    pub values: Vec<f32>,
+    /// Against so many groups they are estimated.
+    groups: usize,
+}
+
+/// Parts that take less than this are followed by larger ones.
+const STEP: Duration = Duration::from_millis(10);
 
 /// The estimator with what it prepares.
 pub(crate) enum Method<'a> {
@@ -137,10 +153,10 @@ impl<'a> Estimation<'a> {
     /// Estimates all pairs. `progress` is told how many further pairs are done, from any thread.
     pub fn run(&self, progress: &(dyn Fn(u64) + Sync)) -> FormFactors {
         let size = self.mesh.patches.len();
-        let mut values = vec![0.0; packed_len(size)];
+        let mut all = self.begin(0..size);
         let tally = Tally::new(size);
-        self.fill_rows(0..size, &mut values, &tally, progress);
-        let exchange = SymmetricMatrix::new(size, values).expect("one value per pair was made");
+        self.fill_groups(&mut all, 0..self.tiling.groups.len(), &tally, progress);
+        let exchange = SymmetricMatrix::new(size, all.values).expect("one value per pair was made");
         self.complete(exchange, &tally)
     }
 
@@ -162,16 +178,72 @@ impl<'a> Estimation<'a> {
         Some(first..last)
     }
 
-    /// Fills the zeroed values of rows that [`Estimation::next_rows`] gave, and adds to
-    /// the tally. The result depends neither on the number of threads
-    /// nor on how many rows are filled at a time.
-    pub fn fill_rows(
+    /// Rows that [`Estimation::next_rows`] gave, with nothing of them estimated yet.
+    pub fn begin(&self, rows: Range<usize>) -> Begun {
+        let pairs = packed_len(rows.end) - packed_len(rows.start);
+        Begun {
+            values: vec![0.0; pairs],
+            rows,
+            groups: 0,
+        }
+    }
+
+    /// Whether these are rows that may follow after the first so many, as [`Estimation::begin`] and
+    /// [`Estimation::go_on`] leave them.
+    pub fn has_begun(&self, begun: &Begun, first: usize) -> bool {
+        let Begun {
+            rows,
+            values,
+            groups,
+        } = begun;
+        self.next_rows(first, 0).as_ref() == Some(rows)
+            && values.len() == packed_len(rows.end) - packed_len(rows.start)
+            && *groups <= self.groups_of(rows)
+    }
+
+    /// Goes on with rows until they are finished, or `is_time` to stop: it is asked after each part, of
+    /// some hundred pairs where pairs are slow. Returns whether they are finished. Adds to the tally.
+    ///
+    /// The result depends neither on the number of threads nor on where it stops.
+    pub fn go_on(
         &self,
-        rows: Range<usize>,
-        values: &mut [f32],
+        begun: &mut Begun,
+        tally: &Tally,
+        progress: &(dyn Fn(u64) + Sync),
+        is_time: &(dyn Fn() -> bool + Sync),
+    ) -> bool {
+        let end = self.groups_of(&begun.rows);
+        let mut step = 1;
+        while begun.groups < end {
+            let next = end.min(begun.groups + step);
+            let start = Instant::now();
+            self.fill_groups(begun, begun.groups..next, tally, progress);
+            begun.groups = next;
+            if is_time() {
+                break;
+            }
+            if start.elapsed() < STEP {
+                step *= 2;
+            }
+        }
+        begun.groups == end
+    }
+
+    /// How many groups rows are estimated against: those that begin with them or before.
+    fn groups_of(&self, rows: &Range<usize>) -> usize {
+        let groups = &self.tiling.groups;
+        groups.partition_point(|group| group.patches.start < rows.end)
+    }
+
+    /// Fills what rows have with some of the groups.
+    fn fill_groups(
+        &self,
+        begun: &mut Begun,
+        groups: Range<usize>,
         tally: &Tally,
         progress: &(dyn Fn(u64) + Sync),
     ) {
+        let Begun { rows, values, .. } = begun;
         let strips = self.tiling.strips.iter();
         let tiles = strips
             .filter(|strip| rows.contains(&strip.patches.start))
@@ -186,8 +258,13 @@ impl<'a> Estimation<'a> {
         tiles
             .into_par_iter()
             .for_each_init(Room::default, |room, (tile, mut rows)| {
-                self.fill(tile, &mut rows, room, tally);
-                progress(rows.iter().map(|row| row.len() as u64).sum());
+                let groups = self.tiling.groups[groups.clone()].iter();
+                for group in groups.take_while(|group| group.tiles.start <= tile) {
+                    self.fill(tile, group, &mut rows, room, tally);
+                    let Range { start, end } = group.patches;
+                    let pairs = |row: &&mut [f32]| row.len().min(end) - row.len().min(start);
+                    progress(rows.iter().map(|row| pairs(&row) as u64).sum());
+                }
             });
     }
 
@@ -241,8 +318,15 @@ impl<'a> Estimation<'a> {
         }
     }
 
-    /// Fills the zeroed rows of a tile, and adds to the tally.
-    fn fill(&self, tile: usize, rows: &mut [&mut [f32]], room: &mut Room, tally: &Tally) {
+    /// Fills what the zeroed rows of a tile have with a group, and adds to the tally.
+    fn fill(
+        &self,
+        tile: usize,
+        group: &Group,
+        rows: &mut [&mut [f32]],
+        room: &mut Room,
+        tally: &Tally,
+    ) {
         let patches = &self.tiling.tiles[tile].patches;
         let area = |patch: usize| self.areas[patch];
         let mut classes = Classes::default();
@@ -263,13 +347,12 @@ impl<'a> Estimation<'a> {
                 }
             }
         };
-        let groups = self.tiling.groups.iter();
-        for group in groups.take_while(|group| group.tiles.start <= tile) {
-            self.against((tile, 0..patches.len()), group, room, &mut tell);
+        self.against((tile, 0..patches.len()), group, room, &mut tell);
+        if self.tells_errors() {
+            for (&patch, error) in patches.iter().zip(errors) {
+                tally.add_error(patch, error);
+            }
+            tally.add_classes(&classes);
         }
-        for (&patch, error) in patches.iter().zip(errors) {
-            tally.add_error(patch, error);
-        }
-        tally.add_classes(&classes);
     }
 }

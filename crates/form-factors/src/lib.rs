@@ -63,7 +63,7 @@ use surroundings::Surroundings;
 use tally::Errors;
 
 pub use closure::{Closure, ClosureFacts};
-pub use estimate::{Estimation, estimate};
+pub use estimate::{Begun, Estimation, estimate};
 pub use lumped::LumpedFactors;
 pub use tally::{ClassFacts, Classes, Tally};
 

@@ -17,6 +17,7 @@ pub(crate) struct Tile {
 #[derive(Clone, Debug)]
 pub(crate) struct Group {
     pub(crate) tiles: Range<usize>,
+    pub(crate) patches: Range<usize>,
     pub(crate) part: Part,
 }
 
@@ -73,6 +74,7 @@ impl Tiling {
         }
         self.groups.push(Group {
             tiles: first..self.tiles.len(),
+            patches: face.patches(),
             part: Part::on_face(id, face, face.polygon.padded_corners()),
         });
     }
@@ -92,6 +94,7 @@ impl Tiling {
         let at = self.tiles.len();
         self.groups.push(Group {
             tiles: at..at + 1,
+            patches: first..first + patches.len(),
             part: part.clone(),
         });
         self.tiles.push(Tile { patches, part });

@@ -2,9 +2,10 @@
 
 use radiosity_form_factors::{Estimation, Estimator, FormFactors, Tally};
 use radiosity_geometry::{Mesh, subdivide};
-use radiosity_matrix::{SymmetricMatrix, packed_len, packed_row};
+use radiosity_matrix::{SymmetricMatrix, packed_len};
 use radiosity_scene::load;
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn mesh() -> Mesh {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
@@ -12,17 +13,22 @@ fn mesh() -> Mesh {
     subdivide(&scene.geometry, radiosity_geometry::Divisions::uniform(5)).unwrap()
 }
 
+/// Rows a few at a time, each stopped after as many parts as its turn says.
 fn in_pieces(estimation: &Estimation<'_>, size: usize, pairs: u64) -> (FormFactors, usize) {
-    let mut values = vec![0.0; packed_len(size)];
+    let mut values: Vec<f32> = Vec::new();
     let tally = Tally::new(size);
     let (mut done, mut pieces) = (0, 0);
     while let Some(rows) = estimation.next_rows(done, pairs) {
         done = rows.end;
         pieces += 1;
-        let range = packed_row(rows.start).start..packed_len(rows.end);
-        estimation.fill_rows(rows, &mut values[range], &tally, &|_| ());
+        let mut begun = estimation.begin(rows);
+        let asked = AtomicUsize::new(pieces);
+        let is_time = || asked.fetch_add(1, Ordering::Relaxed).is_multiple_of(3);
+        while !estimation.go_on(&mut begun, &tally, &|_| (), &is_time) {}
+        values.extend(begun.values);
     }
     assert_eq!(done, size);
+    assert_eq!(values.len(), packed_len(size));
     let exchange = SymmetricMatrix::new(size, values).unwrap();
     (estimation.complete(exchange, &tally), pieces)
 }

@@ -1,29 +1,39 @@
 //! Rows of form factors in the order of their file, as many at a time as take a moment.
 //!
 //! What a row costs is not known before it is made: it may differ ten thousand times. So a batch is
-//! no number of rows, but what is begun until its time is over. Threads take the next rows one
-//! after the other, and those that are begun are finished.
+//! no number of rows, but what is done until its time is over. Threads take the next rows one
+//! after the other; those that are not finished then go on in the next batch, and are part of
+//! checkpoints as far as they are.
 
 use crate::observer::Observer;
 use radiosity_cache::Batch;
-use radiosity_form_factors::{Estimation, Tally};
+use radiosity_form_factors::{Begun, Estimation, Tally};
 use radiosity_matrix::packed_len;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::iter;
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-/// What a checkpoint holds: how many rows are finished, and what is known of them.
-pub(crate) type Finished = (u64, Tally);
+/// What a checkpoint holds.
+#[derive(Clone, Serialize, Deserialize)]
+pub(crate) struct Finished {
+    /// How many rows are finished, and in the file.
+    pub(crate) rows: u64,
+    /// Those after them that are begun, or finished after one that is not.
+    pub(crate) begun: Vec<Begun>,
+    /// What is known of all of these.
+    pub(crate) tally: Tally,
+}
 
 /// Estimates the rows that are missing.
 pub(crate) struct Batches<'a> {
     estimation: &'a Estimation<'a>,
     observer: &'a dyn Observer,
-    /// Rows up to here are estimated.
-    rows: usize,
-    tally: Tally,
+    finished: Finished,
     size: BatchSize,
+    /// Batches last so long, and a part of a row more.
+    time: Duration,
     checkpoint: Instant,
 }
 
@@ -34,7 +44,7 @@ struct BatchSize {
 }
 
 impl BatchSize {
-    /// Rows are begun for so long.
+    /// Rows are estimated for so long.
     const TIME: Duration = Duration::from_millis(250);
     /// The first batches are small, so that writing them begins early.
     const FIRST_PAIRS: u64 = 1 << 16;
@@ -59,64 +69,67 @@ impl BatchSize {
 }
 
 impl<'a> Batches<'a> {
-    /// How often checkpoints are made at most.
-    const BETWEEN_CHECKPOINTS: Duration = Duration::from_millis(250);
-
     /// After those that are finished.
     pub(crate) fn after(
-        (rows, tally): Finished,
+        finished: Finished,
         estimation: &'a Estimation<'a>,
         observer: &'a dyn Observer,
     ) -> Batches<'a> {
         Batches {
             estimation,
             observer,
-            rows: rows as usize,
-            tally,
+            finished,
             size: BatchSize::first(),
+            time: BatchSize::TIME,
             checkpoint: Instant::now(),
         }
     }
 
     /// What is known of all rows that are estimated.
     pub(crate) fn into_tally(self) -> Tally {
-        self.tally
+        self.finished.tally
     }
 
-    /// Estimates the next rows, in the fewest that can be estimated by themselves at a time.
+    /// Estimates rows until time is over, those that are begun first, and gives those that are finished.
     fn estimate(&mut self) -> Vec<Vec<f32>> {
-        let Batches {
-            estimation,
-            observer,
-            tally,
-            size,
-            ..
-        } = self;
-        let (first, begun) = (self.rows, Instant::now());
+        let Finished { rows, begun, tally } = &mut self.finished;
+        let (estimation, size, start) = (self.estimation, &self.size, Instant::now());
         let pairs = |rows: Range<usize>| packed_len(rows.end) - packed_len(rows.start);
+        let mut waiting = std::mem::take(begun).into_iter();
+        let first = *rows as usize;
+        let mut last = first;
         let next = iter::from_fn(|| {
-            let is_full = size.is_reached(pairs(first..self.rows) as u64, begun.elapsed());
-            let rows = estimation.next_rows(self.rows, 0).filter(|_| !is_full)?;
-            self.rows = rows.end;
-            Some(rows)
+            let next = waiting.next().or_else(|| {
+                let is_full = size.is_reached(pairs(first..last) as u64, start.elapsed());
+                let rows = estimation.next_rows(last, 0).filter(|_| !is_full)?;
+                Some(estimation.begin(rows))
+            })?;
+            last = next.rows.end;
+            Some(next)
         });
-        let estimate = |rows: Range<usize>| {
-            let mut values = vec![0.0; pairs(rows.clone())];
-            let advance = |pairs| observer.advance(pairs);
-            estimation.fill_rows(rows.clone(), &mut values, tally, &advance);
-            (rows.start, values)
+        let go_on = |mut rows: Begun| {
+            let advance = |pairs| self.observer.advance(pairs);
+            let is_time = || start.elapsed() >= self.time;
+            let is_finished = estimation.go_on(&mut rows, tally, &advance, &is_time);
+            (is_finished, rows)
         };
-        let mut made: Vec<(usize, Vec<f32>)> = next.par_bridge().map(estimate).collect();
-        made.sort_unstable_by_key(|(start, _)| *start);
-        made.into_iter().map(|(_, values)| values).collect()
+        let mut made: Vec<(bool, Begun)> = next.par_bridge().map(go_on).collect();
+        made.sort_unstable_by_key(|(_, of)| of.rows.start);
+        let finished = made.iter().take_while(|(is_finished, _)| *is_finished);
+        let rest = made.split_off(finished.count());
+        *begun = rest.into_iter().map(|(_, rows)| rows).collect();
+        if let Some((_, of)) = made.last() {
+            *rows = of.rows.end as u64;
+        }
+        made.into_iter().map(|(_, of)| of.values).collect()
     }
 
     /// What a checkpoint holds, if it is time for one.
     fn state(&mut self) -> Option<Finished> {
-        let is_due = self.checkpoint.elapsed() >= Batches::BETWEEN_CHECKPOINTS;
+        let is_due = self.checkpoint.elapsed() >= self.time;
         is_due.then(|| {
             self.checkpoint = Instant::now();
-            (self.rows as u64, self.tally.clone())
+            self.finished.clone()
         })
     }
 }
@@ -126,7 +139,7 @@ impl Iterator for Batches<'_> {
 
     fn next(&mut self) -> Option<Batch<Finished>> {
         let values = self.estimate();
-        if values.is_empty() {
+        if values.is_empty() && self.finished.begun.is_empty() {
             return None;
         }
         self.size = self.size.next();
@@ -194,6 +207,7 @@ mod tests {
         subdivide(&scene.geometry, Divisions::uniform(6)).unwrap()
     }
 
+    /// In batches of one part of a row each, each after a checkpoint that the next begins at.
     #[test]
     fn batches_are_what_is_estimated_at_once() {
         let mesh = mesh();
@@ -201,18 +215,30 @@ mod tests {
         let whole = estimation.run(&|_| ());
         for threads in [1, 2, 7] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-            let nothing = (0, Tally::new(mesh.patches.len()));
-            let mut batches = Batches::after(nothing, &estimation, &Silent);
-            // Several batches, and a checkpoint behind each.
-            batches.size.pairs = 1;
-            let made: Vec<Batch<Finished>> =
-                pool.build().unwrap().install(|| batches.by_ref().collect());
-            assert!(made.len() > 5);
-            let values: Vec<f32> = made.into_iter().flat_map(|b| b.values.concat()).collect();
+            let pool = pool.build().unwrap();
+            let mut finished = Finished {
+                rows: 0,
+                begun: Vec::new(),
+                tally: Tally::new(mesh.patches.len()),
+            };
+            let (mut values, mut parts) = (Vec::new(), 0);
+            loop {
+                let mut batches = Batches::after(finished.clone(), &estimation, &Silent);
+                batches.time = Duration::ZERO;
+                let Some(batch) = pool.install(|| batches.next()) else {
+                    break;
+                };
+                values.extend(batch.values.concat());
+                finished = batch.state.expect("a checkpoint behind each");
+                assert_eq!(values.len(), packed_len(finished.rows as usize));
+                parts += 1;
+            }
+            assert!(parts > 10, "{parts}");
             assert!(values == whole.exchange.values(), "{threads} threads");
             let exchange = radiosity_matrix::SymmetricMatrix::new(mesh.patches.len(), values);
-            let completed = estimation.complete(exchange.unwrap(), &batches.into_tally());
+            let completed = estimation.complete(exchange.unwrap(), &finished.tally);
             assert_eq!(completed.rows, whole.rows);
+            assert_eq!(completed.classes, whole.classes);
         }
     }
 }

@@ -57,7 +57,11 @@ impl Job<'_> {
                 Some((draft, finished))
             }
             None => {
-                let nothing = (0, Tally::new(needs.patches));
+                let nothing = Finished {
+                    rows: 0,
+                    begun: Vec::new(),
+                    tally: Tally::new(needs.patches),
+                };
                 let draft = self.begin_draft(store, id, &blank)?;
                 draft.map(|draft| (draft, nothing))
             }
@@ -133,11 +137,17 @@ impl Job<'_> {
         let size = self.mesh.patches.len();
         let count = packed_len(size) as u64;
         let resumed = Draft::resume::<Finished>(store, id, blank, count).and_then(|resumed| {
-            let is_whole = resumed.as_ref().is_none_or(|(draft, (rows, _))| {
-                let first = *rows as usize;
+            let fits = |(draft, finished): &(Draft, Finished)| {
+                let first = finished.rows as usize;
+                let ends = finished.begun.iter().map(|begun| begun.rows.end);
+                let starts = std::iter::once(first).chain(ends);
+                let mut begun = finished.begun.iter().zip(starts);
                 let is_end = first == size || estimation.next_rows(first, 0).is_some();
-                is_end && draft.saved() == packed_len(first) as u64
-            });
+                is_end
+                    && draft.saved() == packed_len(first) as u64
+                    && begun.all(|(begun, first)| estimation.has_begun(begun, first))
+            };
+            let is_whole = resumed.as_ref().is_none_or(fits);
             is_whole.then_some(resumed).ok_or(Unusable::Version)
         });
         let not_used = |why: &Unusable| {

@@ -42,6 +42,7 @@ fn render_reports_one_json_object() {
             "row_sum_max_error",
             "row_sum_mean",
             "row_sum_mean_error",
+            "rows_unbalanced",
             "seconds"
         ]
     );
