@@ -12,7 +12,7 @@ use crate::pairs::Told;
 use crate::part::Part;
 use crate::regular::{Regular, Scratch};
 use crate::surroundings::{Surroundings, around_free_part, look_around};
-use crate::tally::{Classes, RowError, Tally};
+use crate::tally::{ClassSums, RowError, Tally};
 use crate::tiles::{Group, Tile, Tiling};
 use crate::{Estimator, FormFactors};
 use radiosity_geometry::{Mesh, Patch};
@@ -49,8 +49,8 @@ pub struct Begun {
     pub rows: Range<usize>,
     /// Their values, one row after the other.
     pub values: Vec<f32>,
-    /// Against so many groups they are estimated.
-    groups: usize,
+    /// Against so many tiles they are estimated.
+    tiles: usize,
 }
 
 /// Parts that take less than this are followed by larger ones.
@@ -135,7 +135,12 @@ impl<'a> Estimation<'a> {
             let add = |_, told: Told<'_>| sum += told.values.iter().sum::<f32>();
             let patches = |tile: &Tile| tile.patches.len() as u64;
             let lanes = 0..tiles[tile].patches.len();
-            self.against((tile, lanes), group, &mut room, &mut { add });
+            self.against(
+                (tile, lanes),
+                (group, group.tiles.clone()),
+                &mut room,
+                &mut { add },
+            );
             std::hint::black_box(sum);
             let of_group = tiles[group.tiles.clone()].iter().map(patches);
             patches(&tiles[tile]) * of_group.sum::<u64>()
@@ -155,7 +160,7 @@ impl<'a> Estimation<'a> {
         let size = self.mesh.patches.len();
         let mut all = self.begin(0..size);
         let tally = Tally::new(size);
-        self.fill_groups(&mut all, 0..self.tiling.groups.len(), &tally, progress);
+        self.fill(&mut all, 0..self.tiling.tiles.len(), &tally, progress);
         let exchange = SymmetricMatrix::new(size, all.values).expect("one value per pair was made");
         self.complete(exchange, &tally)
     }
@@ -184,7 +189,7 @@ impl<'a> Estimation<'a> {
         Begun {
             values: vec![0.0; pairs],
             rows,
-            groups: 0,
+            tiles: 0,
         }
     }
 
@@ -194,11 +199,11 @@ impl<'a> Estimation<'a> {
         let Begun {
             rows,
             values,
-            groups,
+            tiles,
         } = begun;
         self.next_rows(first, 0).as_ref() == Some(rows)
             && values.len() == packed_len(rows.end) - packed_len(rows.start)
-            && *groups <= self.groups_of(rows)
+            && *tiles <= self.tiles_before(rows)
     }
 
     /// Goes on with rows until they are finished, or `is_time` to stop: it is asked after each part, of
@@ -212,13 +217,13 @@ impl<'a> Estimation<'a> {
         progress: &(dyn Fn(u64) + Sync),
         is_time: &(dyn Fn() -> bool + Sync),
     ) -> bool {
-        let end = self.groups_of(&begun.rows);
+        let end = self.tiles_before(&begun.rows);
         let mut step = 1;
-        while begun.groups < end {
-            let next = end.min(begun.groups + step);
+        while begun.tiles < end {
+            let next = end.min(begun.tiles + step);
             let start = Instant::now();
-            self.fill_groups(begun, begun.groups..next, tally, progress);
-            begun.groups = next;
+            self.fill(begun, begun.tiles..next, tally, progress);
+            begun.tiles = next;
             if is_time() {
                 break;
             }
@@ -226,20 +231,21 @@ impl<'a> Estimation<'a> {
                 step *= 2;
             }
         }
-        begun.groups == end
+        begun.tiles == end
     }
 
-    /// How many groups rows are estimated against: those that begin with them or before.
-    fn groups_of(&self, rows: &Range<usize>) -> usize {
+    /// How many tiles rows are estimated against: those of groups that begin before their end.
+    fn tiles_before(&self, rows: &Range<usize>) -> usize {
         let groups = &self.tiling.groups;
-        groups.partition_point(|group| group.patches.start < rows.end)
+        let count = groups.partition_point(|group| group.patches.start < rows.end);
+        groups[..count].last().map_or(0, |last| last.tiles.end)
     }
 
-    /// Fills what rows have with some of the groups.
-    fn fill_groups(
+    /// Fills what rows have with some of the tiles.
+    fn fill(
         &self,
         begun: &mut Begun,
-        groups: Range<usize>,
+        others: Range<usize>,
         tally: &Tally,
         progress: &(dyn Fn(u64) + Sync),
     ) {
@@ -258,14 +264,31 @@ impl<'a> Estimation<'a> {
         tiles
             .into_par_iter()
             .for_each_init(Room::default, |room, (tile, mut rows)| {
-                let groups = self.tiling.groups[groups.clone()].iter();
-                for group in groups.take_while(|group| group.tiles.start <= tile) {
-                    self.fill(tile, group, &mut rows, room, tally);
-                    let Range { start, end } = group.patches;
-                    let pairs = |row: &&mut [f32]| row.len().min(end) - row.len().min(start);
-                    progress(rows.iter().map(|row| pairs(&row) as u64).sum());
+                for (group, others) in self.groups_of(tile, &others) {
+                    let patches = self.tiling.tiles[others.clone()].iter();
+                    let patches = patches.flat_map(|other| &other.patches);
+                    let before = |row: &[f32]| patches.clone().filter(|&&j| j < row.len()).count();
+                    let pairs: usize = rows.iter().map(|row| before(row)).sum();
+                    self.fill_tile(tile, (group, others), &mut rows, room, tally);
+                    progress(pairs as u64);
                 }
             });
+    }
+
+    /// Of some tiles those in groups that begin before a tile's end, group by group.
+    fn groups_of(
+        &self,
+        tile: usize,
+        others: &Range<usize>,
+    ) -> impl Iterator<Item = (&Group, Range<usize>)> {
+        let groups = &self.tiling.groups;
+        let first = groups.partition_point(|group| group.tiles.end <= others.start);
+        let Range { start, end } = others.clone();
+        let before = move |group: &&Group| group.tiles.start < end && group.tiles.start <= tile;
+        groups[first..].iter().take_while(before).map(move |group| {
+            let some = start.max(group.tiles.start)..end.min(group.tiles.end);
+            (group, some)
+        })
     }
 
     /// The patches in runs of up to eight that lie close together, on one face unless faces are
@@ -291,7 +314,8 @@ impl<'a> Estimation<'a> {
             }
         };
         for group in &self.tiling.groups {
-            self.against((cluster, place..place + 1), group, &mut room, &mut tell);
+            let all = (group, group.tiles.clone());
+            self.against((cluster, place..place + 1), all, &mut room, &mut tell);
         }
         row
     }
@@ -318,18 +342,18 @@ impl<'a> Estimation<'a> {
         }
     }
 
-    /// Fills what the zeroed rows of a tile have with a group, and adds to the tally.
-    fn fill(
+    /// Fills what the zeroed rows of a tile have with some tiles of a group, and adds to the tally.
+    fn fill_tile(
         &self,
         tile: usize,
-        group: &Group,
+        others: (&Group, Range<usize>),
         rows: &mut [&mut [f32]],
         room: &mut Room,
         tally: &Tally,
     ) {
         let patches = &self.tiling.tiles[tile].patches;
         let area = |patch: usize| self.areas[patch];
-        let mut classes = Classes::default();
+        let mut classes = ClassSums::default();
         let mut errors = [RowError::default(); LANES];
         let mut tell = |lane: usize, told: Told<'_>| {
             let row = &mut *rows[lane];
@@ -347,7 +371,7 @@ impl<'a> Estimation<'a> {
                 }
             }
         };
-        self.against((tile, 0..patches.len()), group, room, &mut tell);
+        self.against((tile, 0..patches.len()), others, room, &mut tell);
         if self.tells_errors() {
             for (&patch, error) in patches.iter().zip(errors) {
                 tally.add_error(patch, error);

@@ -36,12 +36,12 @@ impl<'a> Told<'a> {
 }
 
 impl Estimation<'_> {
-    /// Estimates the exchange of some patches of a tile, by their lanes, with those of a group; tells
-    /// of those that may not be zero: the lane, and what is found out.
+    /// Estimates the exchange of some patches of a tile, by their lanes, with those of some tiles of a
+    /// group; tells of those that may not be zero: the lane, and what is found out.
     pub(crate) fn against(
         &self,
         (tile, lanes): (usize, Range<usize>),
-        group: &Group,
+        (group, others): (&Group, Range<usize>),
         room: &mut Room,
         tell: &mut impl FnMut(usize, Told<'_>),
     ) {
@@ -50,7 +50,7 @@ impl Estimation<'_> {
         let Some(between) = self.view(&Between::Many, [part, &group.part], FEW) else {
             return;
         };
-        for other in group.tiles.clone() {
+        for other in others {
             // The only tile of a group is all of it.
             let narrowed = match group.tiles.len() {
                 1 => Some(between.clone()),

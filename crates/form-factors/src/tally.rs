@@ -83,14 +83,25 @@ impl Clone for Tally {
     }
 }
 
-impl Classes {
+/// What some pairs add to their classes.
+#[derive(Default)]
+pub(crate) struct ClassSums {
+    /// Times [`FINER`].
+    errors: [Fixed; 2],
+    pairs: [u64; 2],
+}
+
+/// What a pair adds to the mean over rows is so many times smaller, at least, than what it adds to one.
+const FINER: f64 = 65536.0;
+
+impl ClassSums {
     pub(crate) fn add(&mut self, sight: Sight, error: f64) {
         let class = match sight {
-            Sight::Clear => &mut self.clear,
-            Sight::Partial => &mut self.partial,
+            Sight::Clear => 0,
+            Sight::Partial => 1,
         };
-        class.pairs += 1;
-        class.error += error;
+        self.pairs[class] += 1;
+        self.errors[class] += Fixed::of(FINER * error);
     }
 }
 
@@ -116,11 +127,10 @@ impl Tally {
         self.errors.add(self.rows() + row, of_row.missed);
     }
 
-    pub(crate) fn add_classes(&self, classes: &Classes) {
-        let rows = self.rows();
-        for (k, class) in [classes.clear, classes.partial].into_iter().enumerate() {
-            self.errors.add(2 * rows + k, Fixed::of(class.error));
-            self.pairs[k].fetch_add(class.pairs, Ordering::Relaxed);
+    pub(crate) fn add_classes(&self, classes: &ClassSums) {
+        for (k, (&error, &pairs)) in classes.errors.iter().zip(&classes.pairs).enumerate() {
+            self.errors.add(2 * self.rows() + k, error);
+            self.pairs[k].fetch_add(pairs, Ordering::Relaxed);
         }
     }
 
@@ -130,7 +140,7 @@ impl Tally {
         let of_classes = missed.split_off(self.rows());
         let class = |k: usize| ClassFacts {
             pairs: self.pairs[k].load(Ordering::Relaxed),
-            error: of_classes[k],
+            error: of_classes[k] / FINER,
         };
         let (clear, partial) = (class(0), class(1));
         Errors {
