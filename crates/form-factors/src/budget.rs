@@ -11,7 +11,7 @@ use crate::fixed::{Fixed, FixedSums};
 use crate::obstacles::Between;
 use crate::pairs::FEW;
 use crate::quotient;
-use crate::tiles::{Group, Tiling};
+use crate::tiles::{Group, Tile, Tiling};
 use rayon::prelude::*;
 
 /// What pairs may add to the errors of rows.
@@ -107,9 +107,14 @@ impl Estimation<'_> {
         if between.is_clear() {
             return None;
         }
-        // Any of them, by a mix of both numbers.
+        // Any of them that are not covered, by a mix of both numbers.
         let mixed = 5 * pair[0] + 3 * pair[1];
-        let ends = tiles.map(|tile| tile.patches[mixed % tile.patches.len()]);
+        let any = |tile: &Tile| {
+            let count = tile.patches.len();
+            let mut patches = (0..count).map(|k| tile.patches[(mixed + k) % count]);
+            patches.find(|&patch| self.areas[patch] > 0.0)
+        };
+        let ends = [any(tiles[0])?, any(tiles[1])?];
         let between = self.view(&between, ends.map(|patch| &self.parts[patch]), FEW)?;
         (!between.is_clear()).then_some(ends)
     }

@@ -24,7 +24,7 @@ impl Fixed {
 
 impl AddAssign for Fixed {
     fn add_assign(&mut self, other: Fixed) {
-        self.0 += other.0;
+        self.0 = self.0.saturating_add(other.0);
     }
 }
 

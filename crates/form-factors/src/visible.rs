@@ -122,7 +122,12 @@ fn share_of_cells(
             return total.share(wanted);
         }
         // Cells add to the error by their variance, and equal parts take the fewest samples.
-        let aim = wanted.max(LESS_ERROR * total.scatter);
+        // Where that is too much one of them at least has more than an equal part.
+        let squares = cells.iter().map(|cell| total.scatter_in(cell).powi(2));
+        let aim = match squares.sum::<f64>().sqrt() {
+            0.0 => wanted,
+            scatter => (wanted / total.scatter).max(LESS_ERROR) * scatter,
+        };
         let most = aim / (cells.len() as f64).sqrt();
         let mut next = Vec::with_capacity(2 * cells.len());
         for cell in &cells {

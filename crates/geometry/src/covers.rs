@@ -1,8 +1,8 @@
 //! Faces that lie on others: in one plane, facing the same way, over the same points.
 //!
 //! Of two such faces one counts where they overlap: that of the smaller area, as of a lamp on a
-//! ceiling, or, where areas are equal, the one that comes later. Areas are those of all that hangs
-//! together in the plane, so that it does not matter how finely a ceiling is cut. (View3D has the same
+//! ceiling, or, where areas are equal, the one that comes later. Areas are those of all of a surface that
+//! hangs together in the plane, so that it does not matter how finely the mesh of a ceiling is cut. (View3D has the same
 //! rule for subsurfaces, which its input has to name: G. Walton, NISTIR 6925, 2002.)
 
 use crate::bounds::Aabb;
@@ -101,6 +101,12 @@ impl Covers {
         (!holes.is_empty()).then(|| remainder(whole, patch.normal, &holes, tolerance))
     }
 
+    /// The largest of all layers.
+    pub(crate) fn layers(&self) -> u32 {
+        let layers = self.covered.iter().map(|covered| covered.layer);
+        layers.max().unwrap_or(0)
+    }
+
     /// How many faces lie on each other above a face, at most.
     pub(crate) fn layer(&self, face: FaceId) -> u32 {
         self.find(face).map_or(0, |covered| covered.layer)
@@ -135,12 +141,7 @@ fn overlapping(faces: &[Face], boxes: &[Aabb], bounds: &Aabb, tolerance: f64) ->
     }
     let mut pairs = Vec::new();
     for mut cell in cells.into_values().filter(|cell| cell.len() > 1) {
-        let around = cell.iter().map(|&face| boxes[face]);
-        let extent = around.fold(Aabb::EMPTY, Aabb::union).extent();
-        let axis = extent.to_array().into_iter().enumerate();
-        let axis = axis
-            .max_by(|(_, a), (_, b)| a.total_cmp(b))
-            .map_or(0, |(axis, _)| axis);
+        let axis = sweep_axis(&cell, boxes);
         cell.sort_by(|&a, &b| boxes[a].min[axis].total_cmp(&boxes[b].min[axis]));
         for (k, &i) in cell.iter().enumerate() {
             let reaches = |&&j: &&usize| boxes[j].min[axis] < boxes[i].max[axis];
@@ -155,6 +156,21 @@ fn overlapping(faces: &[Face], boxes: &[Aabb], bounds: &Aabb, tolerance: f64) ->
     pairs.sort_unstable();
     pairs.dedup();
     pairs
+}
+
+/// The axis along which boxes reach over the fewest others: where they are shortest, relative to all
+/// together.
+fn sweep_axis(cell: &[usize], boxes: &[Aabb]) -> usize {
+    let around = cell.iter().map(|&face| boxes[face]);
+    let extent = around.clone().fold(Aabb::EMPTY, Aabb::union).extent();
+    let sum: DVec3 = around.map(|of| of.extent()).sum();
+    let share = |axis: &usize| match extent[*axis] {
+        0.0 => f64::INFINITY,
+        whole => sum[*axis] / whole,
+    };
+    (0..3)
+        .min_by(|a, b| share(a).total_cmp(&share(b)))
+        .unwrap_or(0)
 }
 
 /// The cells of a plane and of those that may be the same.
@@ -217,7 +233,8 @@ fn are_apart(a: &Polygon, b: &Polygon, normal: DVec3, tolerance: f64) -> bool {
     parts(a, b) || parts(b, a)
 }
 
-/// Of each face, the area of all that it hangs together with in its plane, by edges that faces share.
+/// Of each face, the area of all of its surface that it hangs together with in its plane, by edges that
+/// faces share, relative to the largest.
 fn areas_together(faces: &[Face], tolerance: f64) -> Vec<f32> {
     let mut left_of: HashMap<_, Vec<usize>> = HashMap::new();
     let mut together = Sets((0..faces.len()).collect());
@@ -235,15 +252,18 @@ fn areas_together(faces: &[Face], tolerance: f64) -> Vec<f32> {
     for (index, face) in faces.iter().enumerate() {
         sums[together.first(index)] += face.polygon.area();
     }
-    let area = |index| sums[together.first(index)] as f32;
+    let largest = sums.iter().copied().fold(0.0, f64::max);
+    let area = |index| (sums[together.first(index)] / largest) as f32;
     (0..faces.len()).map(area).collect()
 }
 
-/// Whether a face lies in the plane of another and faces the same way.
+/// Whether a face of the same surface lies in the plane of another and faces the same way.
 fn continues(face: &Face, other: &Face, tolerance: f64) -> bool {
     let from = face.polygon.corners()[0];
     let is_near = |&c: &DVec3| face.normal.dot(c - from).abs() <= tolerance;
-    face.normal.dot(other.normal) > 0.0 && other.polygon.corners().iter().all(is_near)
+    face.surface == other.surface
+        && face.normal.dot(other.normal) > 0.0
+        && other.polygon.corners().iter().all(is_near)
 }
 
 /// Sets of numbers that are joined step by step: each has a number before it in its set, or is the first.

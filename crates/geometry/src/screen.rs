@@ -75,6 +75,7 @@ impl Screen {
             camera,
             film: camera.film(width, height),
             tolerance: plane_tolerance(&everything),
+            layers: mesh.covers.layers(),
         };
         let ids = (0..mesh.faces.len() as u32).map(FaceId);
         let seen = |id: FaceId| {
@@ -122,8 +123,8 @@ impl Screen {
     }
 
     /// Which faces the samples of the pixel in column `x` and row `y` show, into `seen`: the
-    /// nearest of those that are not too near. Of a front and a back in one plane they show the front, of
-    /// two fronts the one that lies on the other, else of two at the same depth the first. Returns whether other places in the pixel may show
+    /// nearest of those that are not too near. Of a front and a back in one plane they show the
+    /// front, of two fronts the one that lies on the other, else of two at the same depth the first. Returns whether other places in the pixel may show
     /// other faces.
     #[inline(always)]
     pub fn look<S: Simd>(

@@ -87,7 +87,7 @@ pub enum MeshError {
     NoDigits {
         /// The surface.
         surface: SurfaceId,
-        /// The longest edge of the patch.
+        /// The longest edge of a patch of it.
         size: f64,
         /// The largest coordinate of the scene.
         largest: f64,
@@ -129,19 +129,26 @@ pub fn subdivide(surfaces: &[Surface], default: Divisions) -> Result<Mesh, MeshE
         let patch = |(cell, polygon)| new_patch(face, FaceId(index as u32), cell, polygon);
         mesh.patches.extend(cells(face).into_iter().map(patch));
     }
-    check_sizes(&mesh)?;
     Ok(mesh)
 }
 
 /// Refuses patches for which coordinates leave no digits.
-fn check_sizes(mesh: &Mesh) -> Result<(), MeshError> {
-    let bounds = mesh.bounds();
-    let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
-    let is_too_small = |patch: &&Patch| patch.polygon.longest_edge() < LEAST_SIZE * largest;
-    match mesh.patches.iter().find(is_too_small) {
-        Some(patch) => Err(MeshError::NoDigits {
-            surface: patch.surface,
-            size: patch.polygon.longest_edge(),
+fn check_sizes(faces: &[Face]) -> Result<(), MeshError> {
+    let corners = faces.iter().flat_map(|face| face.polygon.corners());
+    let largest = corners.fold(0.0, |largest, corner| {
+        corner.abs().max_element().max(largest)
+    });
+    let size = |face: &Face| {
+        let cells = match face.grid {
+            Grid::Quad { a, b } => a.max(b),
+            Grid::Triangle { n } => n,
+        };
+        face.polygon.longest_edge() / f64::from(cells.max(1))
+    };
+    match faces.iter().find(|face| size(face) < LEAST_SIZE * largest) {
+        Some(face) => Err(MeshError::NoDigits {
+            surface: face.surface,
+            size: size(face),
             largest,
         }),
         None => Ok(()),
@@ -170,6 +177,7 @@ fn uncut_faces(surfaces: &[Surface], default: Divisions) -> Result<Vec<Face>, Me
             });
         }
     }
+    check_sizes(&faces)?;
     let patches = faces
         .iter()
         .try_fold(0usize, |sum, face| sum.checked_add(face.grid.cells()));

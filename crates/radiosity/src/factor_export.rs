@@ -223,7 +223,10 @@ impl<'a> FactorTable<'a> {
                     .flatten()
                     .map(|index| index.to_string()),
             );
-            let sky = 1.0 - facts.fronts - facts.backs;
+            let sky = match row.area {
+                0.0 => 0.0,
+                _ => 1.0 - facts.fronts - facts.backs,
+            };
             let RowFacts {
                 fronts,
                 backs,

@@ -94,8 +94,10 @@ pub(crate) struct RowReport {
     closure: Option<ClosureFacts>,
 }
 
-/// In a closed scene patches see fronts alone, but for a few rays that meet an edge.
+/// In a closed scene patches see fronts alone, and what is hidden of them sees backs, as far as that is
+/// known. A few rays may meet an edge.
 const OPEN: f64 = 0.001;
+const TURNED: f64 = 0.02;
 /// So many files are told one by one.
 const MOST_TOLD: usize = 12;
 
@@ -162,9 +164,8 @@ impl<'a> Report<'a> {
         }
         if pipeline.scene().closed {
             self.terminal.line(&indented(&closed_line(rows)));
-            if rows.backs + rows.background > OPEN
-                && let Some(why) = darkness::openings(pipeline.scene(), pipeline.mesh())
-            {
+            let is_open = rows.background > OPEN || rows.exposed_backs > TURNED;
+            if is_open && let Some(why) = darkness::openings(pipeline.scene(), pipeline.mesh()) {
                 self.terminal.line(&indented(&format!(
                     "warning: the scene calls itself closed and is not: {why}"
                 )));

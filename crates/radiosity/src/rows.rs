@@ -13,6 +13,8 @@ pub struct RowSummary {
     pub backs: f64,
     /// See `backs`.
     pub background: f64,
+    /// The mean share of backs that are seen by what of patches is not hidden inside of something.
+    pub exposed_backs: f64,
     /// The largest distance of a row sum from 1. In open scenes that is no error: what is
     /// missing left the scene.
     pub max_error: f64,
@@ -104,6 +106,7 @@ impl RowSummary {
             mean: mean(&|row| row.fronts),
             backs: mean(&|row| row.backs),
             background: mean(&|row| row.background),
+            exposed_backs: mean(&|row| (row.backs - (1.0 - row.visible)).max(0.0)),
             max_error: most(&distance),
             mean_error: mean(&distance),
             excessive: number(&|row| row.fronts > EXCESSIVE),
@@ -140,7 +143,7 @@ fn unbalanced(rows: &[(usize, &RowFacts)], surface_of: impl Fn(usize) -> usize) 
         let found = surfaces.entry(surface).or_insert(Unbalanced {
             surface,
             rows: 0,
-            worst: 1.0,
+            worst: balance(row),
         });
         found.rows += 1;
         if (balance(row) - 1.0).abs() > (found.worst - 1.0).abs() {

@@ -63,28 +63,70 @@ fn surfaces_are_named() {
     );
 }
 
+/// Of the only picture, by channel.
+fn radiances(place: &Place) -> Vec<f32> {
+    let file = fs::read_dir(place.path("out")).unwrap().next().unwrap();
+    let bytes = fs::read(file.unwrap().path()).unwrap();
+    let pixels = bytes[bytes.len() - 24 * 24 * 12..].as_chunks::<4>().0;
+    pixels
+        .iter()
+        .map(|&bytes| f32::from_le_bytes(bytes))
+        .collect()
+}
+
 /// In one plane rounding would decide, pixel by pixel.
 #[test]
 fn pictures_show_what_lies_on_top() {
     for mode in ["accurate", "regular"] {
         let place = place(mode);
         place.json("render room.toml --no-cache --shading constant --format pfm --output out");
-        let file = fs::read_dir(place.path("out"))
-            .unwrap()
-            .next()
-            .unwrap()
-            .unwrap();
-        let bytes = fs::read(file.path()).unwrap();
-        let pixels = bytes[bytes.len() - 24 * 24 * 12..].as_chunks::<4>().0;
-        let radiances: Vec<f32> = pixels
-            .iter()
-            .map(|&bytes| f32::from_le_bytes(bytes))
-            .collect();
+        let radiances = radiances(&place);
         // The lamp fills the picture, and reflects nothing.
         let first = radiances[0];
         assert!(
             first > 0.0 && radiances.iter().all(|r| *r == first),
             "{mode} {radiances:?}"
+        );
+    }
+}
+
+/// A wall of two faces with a picture and another on it: from the front no back is seen.
+#[test]
+fn walls_of_two_faces_show_what_lies_on_them() {
+    let quad = |name: &str, [low, high]: [f64; 2], is_front: bool| {
+        let mut corners = [
+            [low, low, 0.0],
+            [high, low, 0.0],
+            [high, high, 0.0],
+            [low, high, 0.0],
+        ];
+        if !is_front {
+            corners.reverse();
+        }
+        format!("[[surfaces]]\nname = \"{name}\"\nmaterial = \"lamp\"\nquad = {corners:?}\n")
+    };
+    let mut faces = [
+        quad("back", [-2.0, 2.0], false),
+        quad("front", [-2.0, 2.0], true),
+        quad("picture", [-0.2, 0.3], true),
+        quad("stamp", [-0.1, 0.1], true),
+    ];
+    for turn in 0..4 {
+        faces.rotate_left(turn);
+        let place = Place::new();
+        let text = format!(
+            "[camera]\nposition = [0.1, 0.2, 1]\nlook_at = [0, 0, 0]\nvertical_fov = 40\n\
+             [image]\nwidth = 24\nheight = 24\n[materials.lamp]\nreflectance = 0\nemission = 1\n{}",
+            faces.concat()
+        );
+        place.write("room.toml", &text);
+        place.json(
+            "render room.toml --no-cache --patches 2 --shading constant --format pfm --output out",
+        );
+        let radiances = radiances(&place);
+        assert!(
+            radiances.iter().all(|r| *r == radiances[0] && *r > 0.0),
+            "{turn} {radiances:?}"
         );
     }
 }

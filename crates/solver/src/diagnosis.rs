@@ -49,6 +49,8 @@ const SUSPICIOUS_GROWTH: usize = 4;
 /// With a relative residual above this, radiosities are no solution. (On their way to one, conjugate
 /// gradients may exceed 1.)
 pub(crate) const WORTHLESS: f64 = 10.0;
+/// With a residual above this, passes that change nothing any more have not ended at rounding.
+pub(crate) const FAR: f64 = 1e-3;
 /// A spectral radius this near to 1 is 1, as far as single precision tells.
 const RADIUS_ERROR: f64 = 1e-6;
 /// How many of the worst patches an error names.

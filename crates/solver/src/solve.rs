@@ -118,7 +118,12 @@ pub fn solve(
             diagnosis::check_spectral_radius(system)?;
         }
     }
-    if !converged && (stalled || !diagnosis::is_falling(&residuals)) {
+    let last = residuals.last().copied().unwrap_or(0.0);
+    let is_lost = match stalled {
+        true => last > diagnosis::FAR,
+        false => !diagnosis::is_falling(&residuals),
+    };
+    if !converged && is_lost {
         diagnosis::check_spectral_radius(system)?;
     }
     let relaxation = iteration.relaxation();

@@ -103,6 +103,33 @@ fn the_later_of_two_equal_faces_counts() {
     );
 }
 
+/// A lamp in the place of one square of a ceiling, whose edges it shares, before the ceiling and after it.
+#[test]
+fn what_shares_edges_with_a_mesh_lies_on_it_in_any_order() {
+    let third = 1.0 / 3.0;
+    let lamp = || rectangle([third, 2.0 * third], [third, 2.0 * third]);
+    let [whole, part] = [8.0 / 9.0, 1.0 / 9.0];
+    assert_near(&free_areas(&mesh(vec![grid(3), lamp()], 1)), &[whole, part]);
+    assert_near(&free_areas(&mesh(vec![lamp(), grid(3)], 1)), &[part, whole]);
+}
+
+#[test]
+fn huge_and_tiny_faces_have_an_order() {
+    for scale in [1e-20, 1e20] {
+        let scaled = |shape: Shape| match shape {
+            Shape::Quad(corners) => Shape::Quad(corners.map(|corner| scale * corner)),
+            _ => unreachable!("only quads are scaled here"),
+        };
+        let lamp = scaled(rectangle([0.2, 0.6], [0.3, 0.5]));
+        let wall = scaled(rectangle([0.0, 1.0], [0.0, 1.0]));
+        let areas = free_areas(&mesh(vec![lamp, wall], 1));
+        assert!(
+            (areas[0] / (scale * scale) - 0.08).abs() < 1e-9,
+            "{areas:?}"
+        );
+    }
+}
+
 #[test]
 fn what_faces_the_other_way_or_lies_elsewhere_covers_nothing() {
     let wall = rectangle([0.0, 1.0], [0.0, 1.0]);

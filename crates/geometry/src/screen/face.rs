@@ -37,6 +37,8 @@ pub(super) struct Viewed<'a> {
     /// How far faces are set back for each that others in their plane are to be seen before: backs behind
     /// fronts, and faces behind those that lie on them.
     pub(super) tolerance: f64,
+    /// How many of them lie on each other, at most.
+    pub(super) layers: u32,
 }
 
 impl Linear {
@@ -80,7 +82,7 @@ impl SeenFace {
         let height = face.normal.dot(a);
         let side = height.signum();
         let front = height < 0.0;
-        let steps = if front { layer } else { layer + 1 };
+        let steps = if front { layer } else { viewed.layers + 1 };
         let set_back = side * f64::from(steps) * viewed.tolerance;
         let depth = face.normal / (height + set_back);
         let edge = |from: DVec3, to: DVec3| Linear::of(side * from.cross(to), film);

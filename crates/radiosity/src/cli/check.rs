@@ -3,7 +3,6 @@
 use super::args::CheckArgs;
 use super::site::Site;
 use super::terminal::say;
-use crate::darkness::no_light;
 use crate::error::Error;
 use crate::lines::{indented, labelled, scene_line};
 use crate::resources::{Needs, bytes, grouped};
@@ -41,7 +40,9 @@ fn check_lines(scene: &Scene, needs: &Needs) -> Vec<String> {
     lines.extend(views_line(scene));
     lines.extend(lights_line(scene));
     if scene.first_camera().is_some() && scene.lights.is_empty() {
-        lines.push(indented(&no_light(scene)));
+        lines.push(indented(
+            "warning: nothing emits light; pictures will be black",
+        ));
     }
     lines
 }

@@ -35,7 +35,7 @@ pub(super) fn notes(scene: &Scene, mesh: &Mesh) -> Vec<String> {
     let mut lines: Vec<String> = pairs.iter().take(MOST_TOLD).map(line).collect();
     if pairs.len() > MOST_TOLD {
         lines.push(format!(
-            "and {} more surfaces that lie on others",
+            "note: so do surfaces of {} more pairs",
             pairs.len() - MOST_TOLD
         ));
     }
