@@ -4,6 +4,7 @@ use crate::check::ShapeError;
 use crate::covers::Covers;
 use crate::mesh::{Face, FaceId, Grid, Mesh, Patch, SurfaceId};
 use crate::morton;
+use crate::narrow::NarrowGrid;
 use crate::polygon::Polygon;
 use crate::shape::Shape;
 
@@ -18,7 +19,8 @@ pub enum Divisions {
         b: u32,
     },
     /// As few cells as keep every patch edge at most this long, in scene units. Faces of meshes
-    /// take the next power of two, so that neighbours of different size fit together.
+    /// take the next power of two, so that neighbours of different size fit together. Triangles that are
+    /// narrow are cut along each edge as its length asks for, the others alike along all edges.
     MaxEdge(f64),
     /// No cells at all: the surface stands in the way, and neither emits nor receives.
     Uncut,
@@ -226,7 +228,7 @@ fn grid(
 }
 
 fn grid_by_length(polygon: &Polygon, max_edge: f64, powers_of_two: bool) -> Grid {
-    let count = |length: f64| {
+    let count = |length: f64, max_edge: f64| {
         // An edge of exactly n lengths, up to rounding, takes n cells. Saturating is harmless:
         // such counts are refused as too many patches.
         let cells = (length / max_edge * (1.0 - 1e-12)).ceil().max(1.0) as u32;
@@ -237,15 +239,26 @@ fn grid_by_length(polygon: &Polygon, max_edge: f64, powers_of_two: bool) -> Grid
         }
     };
     if polygon.is_triangle() {
-        return Grid::Triangle {
-            n: count(polygon.longest_edge()),
+        let n = count(polygon.longest_edge(), max_edge);
+        return if is_narrow(polygon, n) {
+            Grid::Narrow(NarrowGrid::new(polygon, max_edge, count))
+        } else {
+            Grid::Triangle { n }
         };
     }
     let [p, q, r, s] = *polygon.padded_corners();
+    let count = |length| count(length, max_edge);
     Grid::Quad {
         a: count((q - p).length().max((r - s).length())),
         b: count((s - p).length().max((r - q).length())),
     }
+}
+
+/// Whether `n^2` patches of a triangle are more than four times what patches of area `e^2` or, where it is thinner,
+/// length `e` would be, `e` being an `n`th of the longest edge. Up to rounding: halves of squares are not narrow.
+fn is_narrow(polygon: &Polygon, n: u32) -> bool {
+    let square = polygon.longest_edge() * polygon.longest_edge();
+    (5..=MAX_PATCHES as u32).contains(&n) && 4.0 * polygon.area() < (1.0 - 1e-9) * square
 }
 
 fn new_patch(face: &Face, id: FaceId, cell: [u32; 2], polygon: Polygon) -> Patch {
@@ -264,6 +277,7 @@ fn cells(face: &Face) -> Vec<([u32; 2], Polygon)> {
     match face.grid {
         Grid::Quad { a, b } => quad_cells(&face.polygon, a, b),
         Grid::Triangle { n } => triangle_cells(&face.polygon, n),
+        Grid::Narrow(grid) => grid.polygons(&face.polygon),
     }
 }
 
