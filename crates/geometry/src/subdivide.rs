@@ -6,6 +6,7 @@ use crate::mesh::{Face, FaceId, Grid, Mesh, Patch, SurfaceId};
 use crate::morton;
 use crate::narrow::NarrowGrid;
 use crate::polygon::Polygon;
+use crate::polygon_mesh::split_quad;
 use crate::shape::Shape;
 
 /// How finely a surface is cut.
@@ -162,14 +163,16 @@ fn uncut_faces(surfaces: &[Surface], default: Divisions) -> Result<Vec<Face>, Me
         let id = SurfaceId(index as u32);
         let divisions = divisions_of(surface, default);
         for (input_index, polygon) in ordered_polygons(id, &surface.shape)? {
-            faces.push(Face {
-                normal: polygon.normal(),
-                grid: grid(id, surface, &polygon, divisions)?,
-                polygon,
-                surface: id,
-                input_index,
-                first_patch: 0,
-            });
+            for (polygon, grid) in with_grids(id, surface, polygon, divisions)? {
+                faces.push(Face {
+                    normal: polygon.normal(),
+                    grid,
+                    polygon,
+                    surface: id,
+                    input_index,
+                    first_patch: 0,
+                });
+            }
         }
     }
     let patches = faces
@@ -198,6 +201,36 @@ fn ordered_polygons(surface: SurfaceId, shape: &Shape) -> Result<Vec<(u32, Polyg
     let centroids: Vec<_> = polygons.iter().map(|(_, p)| p.centroid()).collect();
     let order = morton::order(&centroids);
     Ok(order.into_iter().map(|k| polygons[k]).collect())
+}
+
+/// A polygon, or its halves, with their grids: a quad of a mesh is halved where its own grid would have too many cells.
+fn with_grids(
+    id: SurfaceId,
+    surface: &Surface,
+    polygon: Polygon,
+    divisions: Divisions,
+) -> Result<Vec<(Polygon, Grid)>, MeshError> {
+    let whole = grid(id, surface, &polygon, divisions)?;
+    let by_length = matches!(divisions, Divisions::MaxEdge(_));
+    match (&surface.shape, whole) {
+        (Shape::Mesh(_), Grid::Quad { a, b }) if by_length && is_wasteful(&polygon, [a, b]) => {
+            let halves =
+                split_quad(*polygon.padded_corners()).map(|halves| halves.map(Polygon::triangle));
+            let halves = halves.into_iter().flatten();
+            halves
+                .map(|half| Ok((half, grid(id, surface, &half, divisions)?)))
+                .collect()
+        }
+        _ => Ok(vec![(polygon, whole)]),
+    }
+}
+
+/// Whether cells of a quad are more than four times what cells of area `e^2` or, where it is thinner, length `e` would
+/// be, `e` being the length of cells along the longest edge: it is slanted, or nearly a narrow triangle.
+fn is_wasteful(quad: &Polygon, [a, b]: [u32; 2]) -> bool {
+    let cells = f64::from(a) * f64::from(b);
+    let size = quad.longest_edge() / f64::from(a.max(b));
+    a.min(b) > 4 && cells * size * size > 4.0 * quad.area()
 }
 
 fn grid(

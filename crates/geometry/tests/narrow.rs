@@ -157,6 +157,48 @@ fn halves_of_squares_and_wider_triangles_are_cut_alike_along_all_edges() {
     }
 }
 
+#[test]
+fn slanted_quads_of_meshes_are_halved_and_others_stay() {
+    let cut = |corners: [[f64; 2]; 4]| {
+        let mesh = PolygonMesh {
+            positions: corners.map(|[x, y]| DVec3::new(x, y, 1.0)).to_vec(),
+            faces: vec![vec![0, 1, 2, 3]],
+        };
+        let surfaces = [Surface {
+            shape: Shape::Mesh(mesh),
+            divisions: None,
+        }];
+        let mesh = subdivide(&surfaces, Divisions::MaxEdge(0.3)).unwrap();
+        let count = count_patches(&surfaces, Divisions::MaxEdge(0.3));
+        assert_eq!(count, Ok(mesh.patches.len()));
+        mesh
+    };
+    let slanted = [
+        [[0.0, 0.0], [7.0, -0.1], [14.0, 0.0], [7.0, 0.1]],
+        [[0.0, 0.0], [9.0, 0.0], [16.0, 0.4], [7.0, 0.4]],
+        [[0.0, 0.0], [9.0, 0.0], [9.0, 0.2], [8.0, 0.25]],
+    ];
+    for corners in slanted {
+        let mesh = cut(corners);
+        assert!(mesh.faces.iter().all(|face| face.input_index == 0));
+        assert_eq!(mesh.faces.len(), 2);
+        let longest = mesh.faces.iter().map(|face| face.polygon.longest_edge());
+        // Counts are powers of two, so pieces may be half as long as allowed.
+        let pieces = 2.0 * longest.fold(0.0, f64::max) / 0.3;
+        let most = 4.0 * pieces.max(mesh.total_area() / (0.15 * 0.15));
+        assert!((mesh.patches.len() as f64) < most);
+        let longest = mesh
+            .patches
+            .iter()
+            .map(|patch| patch.polygon.longest_edge());
+        assert!(longest.fold(0.0, f64::max) <= 0.3);
+    }
+    let strip = cut([[0.0, 0.0], [9.0, 0.0], [9.0, 0.2], [0.0, 0.2]]);
+    assert_eq!(strip.faces[0].grid, Grid::Quad { a: 32, b: 1 });
+    let leaning = cut([[0.0, 0.0], [3.0, 0.0], [5.0, 1.0], [2.0, 1.0]]);
+    assert_eq!(leaning.faces[0].grid, Grid::Quad { a: 16, b: 8 });
+}
+
 /// A few are cut finer, so that all their edges are short enough.
 #[test]
 fn edges_are_cut_as_their_own_lengths_ask_for() {
