@@ -23,6 +23,7 @@ mod check;
 mod covers;
 mod face_block;
 mod film;
+mod grids;
 mod locate;
 mod mesh;
 mod morton;
