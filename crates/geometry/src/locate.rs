@@ -36,9 +36,10 @@ impl Mesh {
 impl Face {
     /// The face's coordinates of a point on it, as [`Location::on_face`] has them.
     pub fn coordinates(&self, point: DVec3) -> DVec2 {
-        match self.grid {
-            Grid::Quad { .. } => inverse_bilinear(&self.polygon, self.normal, point),
-            Grid::Triangle { .. } => inverse_barycentric(&self.polygon, self.normal, point),
+        if self.polygon.is_triangle() {
+            inverse_barycentric(&self.polygon, self.normal, point)
+        } else {
+            inverse_bilinear(&self.polygon, self.normal, point)
         }
     }
 }
@@ -49,6 +50,7 @@ impl Grid {
         match self {
             Grid::Quad { a, b } => cell_of_quad(on_face, a, b),
             Grid::Triangle { n } => cell_of_triangle(on_face, n),
+            Grid::Narrow(grid) => grid.cell_at(on_face),
         }
     }
 }
@@ -80,7 +82,7 @@ fn cell_of_triangle(st: DVec2, n: u32) -> (usize, DVec2) {
 /// `(u, v)` in the unit square whose bilinear image is nearest to `point`, for a convex planar
 /// quad. The quadratic is solved in the form that stays exact as the quad becomes a
 /// parallelogram and the quadratic term vanishes.
-fn inverse_bilinear(polygon: &Polygon, normal: DVec3, point: DVec3) -> DVec2 {
+pub(crate) fn inverse_bilinear(polygon: &Polygon, normal: DVec3, point: DVec3) -> DVec2 {
     let [c0, c1, c2, c3] = *polygon.padded_corners();
     let (along_u, along_v, twist) = (c1 - c0, c3 - c0, c0 - c1 + c2 - c3);
     let p = point - c0;
@@ -97,7 +99,7 @@ fn inverse_bilinear(polygon: &Polygon, normal: DVec3, point: DVec3) -> DVec2 {
     DVec2::new(u.clamp(0.0, 1.0), v)
 }
 
-fn inverse_barycentric(polygon: &Polygon, normal: DVec3, point: DVec3) -> DVec2 {
+pub(crate) fn inverse_barycentric(polygon: &Polygon, normal: DVec3, point: DVec3) -> DVec2 {
     let [c0, c1, c2, _] = *polygon.padded_corners();
     let (e1, e2, p) = (c1 - c0, c2 - c0, point - c0);
     let area = e1.cross(e2).dot(normal);

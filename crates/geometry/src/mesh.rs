@@ -2,6 +2,7 @@
 
 use crate::bounds::Aabb;
 use crate::covers::Covers;
+use crate::narrow::NarrowGrid;
 use crate::polygon::Polygon;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -29,7 +30,7 @@ impl FaceId {
 }
 
 /// How a face is cut into patches. Where counts are 0 it has none: it only stands in the way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Grid {
     /// `a x b` cells of the bilinear map, `a` along the edge from corner 0 to corner 1.
     Quad {
@@ -43,6 +44,8 @@ pub enum Grid {
         /// Cells along each edge.
         n: u32,
     },
+    /// Rows of quads and triangles along the longest edge of a narrow triangle.
+    Narrow(NarrowGrid),
 }
 
 impl Grid {
@@ -51,6 +54,7 @@ impl Grid {
         match self {
             Grid::Quad { a, b } => a as usize * b as usize,
             Grid::Triangle { n } => n as usize * n as usize,
+            Grid::Narrow(grid) => grid.cells(),
         }
     }
 }
@@ -100,7 +104,8 @@ pub struct Patch {
     /// The surface it is part of.
     pub surface: SurfaceId,
     /// On quads, the cell along edge a and edge b. On triangles, the row parallel to the edge
-    /// from corner 0 to corner 2 and the position in it (even: same orientation as the face).
+    /// from corner 0 to corner 2 and the position in it (even: same orientation as the face). On narrow triangles,
+    /// the row, counted from the longest edge, and the position in it, along that edge.
     pub cell: [u32; 2],
 }
 

@@ -31,6 +31,14 @@ impl Polygon {
         }
     }
 
+    /// The polygon with each corner moved.
+    pub(crate) fn map(&self, moved: impl Fn(DVec3) -> DVec3) -> Polygon {
+        Polygon {
+            corners: self.corners.map(moved),
+            triangle: self.triangle,
+        }
+    }
+
     /// The three or four corners.
     pub fn corners(&self) -> &[DVec3] {
         &self.corners[..if self.triangle { 3 } else { 4 }]

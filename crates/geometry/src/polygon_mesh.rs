@@ -88,7 +88,7 @@ fn checked_triangle(face: usize, corners: [DVec3; 3]) -> Result<Polygon, ShapeEr
 
 /// Cuts along the shorter diagonal, or along the one inside the quad where only one is; `None` if
 /// neither is.
-fn split_quad([a, b, c, d]: [DVec3; 4]) -> Option<[[DVec3; 3]; 2]> {
+pub(crate) fn split_quad([a, b, c, d]: [DVec3; 4]) -> Option<[[DVec3; 3]; 2]> {
     let normal = |p: DVec3, q: DVec3, r: DVec3| (q - p).cross(r - p);
     let along_ac = normal(a, b, c).dot(normal(a, c, d));
     let along_bd = normal(a, b, d).dot(normal(b, c, d));

@@ -2,6 +2,7 @@
 
 use crate::check::ShapeError;
 use crate::covers::Covers;
+use crate::grids::with_grids;
 use crate::mesh::{Face, FaceId, Grid, Mesh, Patch, SurfaceId};
 use crate::morton;
 use crate::polygon::Polygon;
@@ -18,7 +19,8 @@ pub enum Divisions {
         b: u32,
     },
     /// As few cells as keep every patch edge at most this long, in scene units. Faces of meshes
-    /// take the next power of two, so that neighbours of different size fit together.
+    /// take the next power of two, so that neighbours of different size fit together. Triangles that are
+    /// narrow are cut along each edge as its length asks for, the others alike along all edges.
     MaxEdge(f64),
     /// No cells at all: the surface stands in the way, and neither emits nor receives.
     Uncut,
@@ -167,14 +169,16 @@ fn uncut_faces(surfaces: &[Surface], default: Divisions) -> Result<Vec<Face>, Me
         let id = SurfaceId(index as u32);
         let divisions = divisions_of(surface, default);
         for (input_index, polygon) in ordered_polygons(id, &surface.shape)? {
-            faces.push(Face {
-                normal: polygon.normal(),
-                grid: grid(id, surface, &polygon, divisions)?,
-                polygon,
-                surface: id,
-                input_index,
-                first_patch: 0,
-            });
+            for (polygon, grid) in with_grids(id, surface, polygon, divisions)? {
+                faces.push(Face {
+                    normal: polygon.normal(),
+                    grid,
+                    polygon,
+                    surface: id,
+                    input_index,
+                    first_patch: 0,
+                });
+            }
         }
     }
     check_sizes(&faces)?;
@@ -206,56 +210,6 @@ fn ordered_polygons(surface: SurfaceId, shape: &Shape) -> Result<Vec<(u32, Polyg
     Ok(order.into_iter().map(|k| polygons[k]).collect())
 }
 
-fn grid(
-    id: SurfaceId,
-    surface: &Surface,
-    polygon: &Polygon,
-    divisions: Divisions,
-) -> Result<Grid, MeshError> {
-    match divisions {
-        Divisions::Uncut if polygon.is_triangle() => Ok(Grid::Triangle { n: 0 }),
-        Divisions::Uncut => Ok(Grid::Quad { a: 0, b: 0 }),
-        Divisions::Count { a: 0, .. } | Divisions::Count { b: 0, .. } => {
-            Err(MeshError::NoDivisions { surface: id })
-        }
-        Divisions::Count { a, b } if polygon.is_triangle() => {
-            if a != b {
-                return Err(MeshError::TwoCountsOnTriangle { surface: id, a, b });
-            }
-            Ok(Grid::Triangle { n: a })
-        }
-        Divisions::Count { a, b } => Ok(Grid::Quad { a, b }),
-        Divisions::MaxEdge(length) if length > 0.0 => {
-            let is_mesh = matches!(surface.shape, Shape::Mesh(_));
-            Ok(grid_by_length(polygon, length, is_mesh))
-        }
-        Divisions::MaxEdge(_) => Err(MeshError::NoDivisions { surface: id }),
-    }
-}
-
-fn grid_by_length(polygon: &Polygon, max_edge: f64, powers_of_two: bool) -> Grid {
-    let count = |length: f64| {
-        // An edge of exactly n lengths, up to rounding, takes n cells. Saturating is harmless:
-        // such counts are refused as too many patches.
-        let cells = (length / max_edge * (1.0 - 1e-12)).ceil().max(1.0) as u32;
-        if powers_of_two {
-            cells.checked_next_power_of_two().unwrap_or(u32::MAX)
-        } else {
-            cells
-        }
-    };
-    if polygon.is_triangle() {
-        return Grid::Triangle {
-            n: count(polygon.longest_edge()),
-        };
-    }
-    let [p, q, r, s] = *polygon.padded_corners();
-    Grid::Quad {
-        a: count((q - p).length().max((r - s).length())),
-        b: count((s - p).length().max((r - q).length())),
-    }
-}
-
 fn new_patch(face: &Face, id: FaceId, cell: [u32; 2], polygon: Polygon) -> Patch {
     Patch {
         polygon,
@@ -272,6 +226,7 @@ fn cells(face: &Face) -> Vec<([u32; 2], Polygon)> {
     match face.grid {
         Grid::Quad { a, b } => quad_cells(&face.polygon, a, b),
         Grid::Triangle { n } => triangle_cells(&face.polygon, n),
+        Grid::Narrow(grid) => grid.polygons(&face.polygon),
     }
 }
 

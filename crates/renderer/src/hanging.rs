@@ -42,19 +42,26 @@ pub(crate) fn hanging_vertices(faces: &[&Face], corners: &[[u32; 4]]) -> Vec<Han
 
 /// The vertices of a face along one of its sides, both ends included.
 fn side_vertices(face: &Face, side: usize, corners: &[[u32; 4]]) -> Vec<u32> {
-    let patches: Vec<usize> = match (face.grid, side) {
-        (Grid::Quad { a, b }, 0) => (0..a).map(|k| quad_cell(b, k, 0)).collect(),
-        (Grid::Quad { a, b }, 1) => (0..b).map(|k| quad_cell(b, a - 1, k)).collect(),
-        (Grid::Quad { a, b }, 2) => (0..a).map(|k| quad_cell(b, a - 1 - k, b - 1)).collect(),
-        (Grid::Quad { b, .. }, _) => (0..b).map(|k| quad_cell(b, 0, b - 1 - k)).collect(),
-        (Grid::Triangle { n }, 0) => (0..n).map(|k| upright_cell(n, k, 0)).collect(),
-        (Grid::Triangle { n }, 1) => (0..n).map(|k| upright_cell(n, n - 1 - k, k)).collect(),
-        (Grid::Triangle { n }, _) => (0..n).map(|k| upright_cell(n, 0, n - 1 - k)).collect(),
+    let ends = [side, (side + 1) % face.polygon.corners().len()];
+    let along =
+        |count: u32, cell: &dyn Fn(u32) -> usize| (0..count).map(|k| (cell(k), ends)).collect();
+    // Cells, and the ends of their edges among their corners.
+    let edges: Vec<(usize, [usize; 2])> = match (face.grid, side) {
+        (Grid::Quad { a, b }, 0) => along(a, &|k| quad_cell(b, k, 0)),
+        (Grid::Quad { a, b }, 1) => along(b, &|k| quad_cell(b, a - 1, k)),
+        (Grid::Quad { a, b }, 2) => along(a, &|k| quad_cell(b, a - 1 - k, b - 1)),
+        (Grid::Quad { b, .. }, _) => along(b, &|k| quad_cell(b, 0, b - 1 - k)),
+        (Grid::Triangle { n }, 0) => along(n, &|k| upright_cell(n, k, 0)),
+        (Grid::Triangle { n }, 1) => along(n, &|k| upright_cell(n, n - 1 - k, k)),
+        (Grid::Triangle { n }, _) => along(n, &|k| upright_cell(n, 0, n - 1 - k)),
+        (Grid::Narrow(grid), _) => grid.along_edge(side),
     };
-    let next = (side + 1) % face.polygon.corners().len();
     let corner = |cell: usize, index: usize| corners[face.first_patch + cell][index];
-    let mut vertices: Vec<u32> = patches.iter().map(|&cell| corner(cell, side)).collect();
-    vertices.extend(patches.last().map(|&cell| corner(cell, next)));
+    let mut vertices: Vec<u32> = edges
+        .iter()
+        .map(|&(cell, [from, _])| corner(cell, from))
+        .collect();
+    vertices.extend(edges.last().map(|&(cell, [_, to])| corner(cell, to)));
     vertices
 }
 

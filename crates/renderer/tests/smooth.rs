@@ -3,7 +3,9 @@
 mod square;
 
 use proptest::prelude::*;
-use radiosity_geometry::{DVec3, Divisions, Mesh, PolygonMesh, Shape, Surface, subdivide};
+use radiosity_geometry::{
+    DVec3, Divisions, Face, Grid, Mesh, PolygonMesh, Shape, Surface, subdivide,
+};
 use radiosity_renderer::Fields;
 use square::{cut, square, two_triangles, view, with_fields};
 use std::f32::consts::PI;
@@ -74,6 +76,69 @@ fn no_seam_where_neighbours_are_cut_differently() {
         let jump = with_fields(&radiosity, |f| jumps_across(mesh, f, from, to));
         assert!(jump < CONTINUOUS, "{jump}");
     }
+}
+
+/// A narrow triangle between a quad and wider triangles, in one mesh: rows of quads and triangles.
+fn narrow_between_others() -> Mesh {
+    let [a, b, c, d] = [0, 1, 2, 3];
+    let below = [[-0.1, -0.62], [0.3, -1.1], [-0.5, -0.9]];
+    let below = below.map(|[x, y]| DVec3::new(x, y, 0.0));
+    let positions = square().into_iter().chain(below).collect();
+    let faces = vec![
+        vec![a, b, c, d],
+        vec![4, b, a],
+        vec![4, 5, b],
+        vec![4, a, 6],
+    ];
+    let surface = Surface {
+        shape: Shape::Mesh(PolygonMesh { positions, faces }),
+        divisions: Some(Divisions::MaxEdge(0.13)),
+    };
+    subdivide(&[surface], Divisions::uniform(1)).unwrap()
+}
+
+fn patches_of_narrow_face(mesh: &Mesh) -> Vec<usize> {
+    let is_narrow = |face: &&Face| matches!(face.grid, Grid::Narrow(_));
+    let mut narrow = mesh.faces.iter().filter(is_narrow);
+    let patches = narrow.next().map(Face::patches).unwrap().collect();
+    assert!(narrow.next().is_none());
+    patches
+}
+
+#[test]
+fn no_seam_in_narrow_triangles_and_around_them() {
+    let mesh = narrow_between_others();
+    let radiosity: Vec<[f32; 3]> = (0..mesh.patches.len())
+        .map(|k| [(k * k % 41) as f32; 3])
+        .collect();
+    let patches = patches_of_narrow_face(&mesh);
+    assert!(patches.len() > 10);
+    with_fields(&radiosity, |fields| {
+        for &patch in &patches {
+            let corners = mesh.patches[patch].polygon.corners();
+            for (k, &from) in corners.iter().enumerate() {
+                let to = corners[(k + 1) % corners.len()];
+                let jump = jumps_across(&mesh, fields, from, to);
+                assert!(jump < CONTINUOUS, "{jump} between {from} and {to}");
+            }
+        }
+    });
+}
+
+#[test]
+fn each_patch_of_a_narrow_triangle_shows_its_own_radiosity() {
+    let mesh = narrow_between_others();
+    let radiosity: Vec<[f32; 3]> = (0..mesh.patches.len()).map(|k| [k as f32; 3]).collect();
+    with_fields(&radiosity, |fields| {
+        for patch in patches_of_narrow_face(&mesh) {
+            let center = mesh.patches[patch].centroid;
+            for corner in mesh.patches[patch].polygon.corners() {
+                let at = center.lerp(*corner, 0.95);
+                let shown = view(&mesh, fields, at, 1e-11, 1)[0].pixels[0][0] * PI;
+                assert!((shown - patch as f32).abs() < 1e-3, "{shown} on {patch}");
+            }
+        }
+    });
 }
 
 /// Sharpening must not overshoot: beside a strong gradient it would show negative light.

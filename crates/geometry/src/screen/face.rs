@@ -1,7 +1,7 @@
 //! A face as a camera sees it: linear functions of the place on the film.
 
 use crate::camera::Camera;
-use crate::mesh::{Face, FaceId, Grid};
+use crate::mesh::{Face, FaceId};
 use glam::{DVec2, DVec3};
 use radiosity_simd::Simd;
 
@@ -86,10 +86,8 @@ impl SeenFace {
         let set_back = side * f64::from(steps) * viewed.tolerance;
         let depth = face.normal / (height + set_back);
         let edge = |from: DVec3, to: DVec3| Linear::of(side * from.cross(to), film);
-        let (along_u, along_v) = match face.grid {
-            Grid::Quad { .. } => (b - a, d - a),
-            Grid::Triangle { .. } => (b - a, c - a),
-        };
+        // A triangle's last corner is stored twice.
+        let (along_u, along_v) = (b - a, d - a);
         let area = along_u.cross(along_v).dot(face.normal);
         let coordinate = |dual: DVec3| Linear::of(dual / area - dual.dot(a) / area * depth, film);
         let is_affine = face.polygon.is_triangle() || face.polygon.is_parallelogram();
