@@ -159,7 +159,7 @@ impl NarrowGrid {
     }
 
     /// Pieces of the line below a row.
-    fn line(self, row: u32) -> u32 {
+    pub(crate) fn line(self, row: u32) -> u32 {
         (self.rows - row) * self.step
     }
 

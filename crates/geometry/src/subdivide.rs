@@ -144,6 +144,7 @@ fn check_sizes(faces: &[Face]) -> Result<(), MeshError> {
         let cells = match face.grid {
             Grid::Quad { a, b } => a.max(b),
             Grid::Triangle { n } => n,
+            Grid::Narrow(grid) => grid.line(0),
         };
         face.polygon.longest_edge() / f64::from(cells.max(1))
     };
