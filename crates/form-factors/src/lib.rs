@@ -20,6 +20,7 @@
 
 mod accurate;
 mod ahead;
+mod begun;
 mod blocker;
 mod budget;
 mod cells;
@@ -62,8 +63,9 @@ use serde::{Deserialize, Serialize};
 use surroundings::Surroundings;
 use tally::Errors;
 
+pub use begun::Begun;
 pub use closure::{Closure, ClosureFacts};
-pub use estimate::{Begun, Estimation, estimate};
+pub use estimate::{Estimation, estimate};
 pub use lumped::LumpedFactors;
 pub use tally::{ClassFacts, Classes, Tally};
 
