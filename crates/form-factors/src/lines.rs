@@ -17,7 +17,7 @@ use crate::target::{Points, Target, points};
 use crate::visible::Sampler;
 use arrayvec::ArrayVec;
 use light::{Interval, Light, light};
-use radiosity_geometry::{Bundle, DVec3, FaceId, Occluders, Polygon};
+use radiosity_geometry::{Bundle, DVec3, FaceId, Occluders, fan};
 use radiosity_simd::{Float, LANES, Simd};
 use shadows::{Screen, light_in_union, shadow_of};
 
@@ -65,12 +65,10 @@ impl<'a> Lines<'a> {
 
 /// A convex polygon cut into quads and a triangle, all of which have its first corner.
 fn pieces(corners: &[DVec3], normal: DVec3) -> ArrayVec<Target, MOST_PIECES> {
-    let piece = |k: usize| match corners[k..] {
-        [b, c, d, ..] => Polygon::quad([corners[0], b, c, d]),
-        _ => Polygon::triangle([corners[0], corners[k], corners[k + 1]]),
-    };
-    let firsts = (1..corners.len() - 1).step_by(2);
-    firsts.map(|k| Target::new(&piece(k), normal)).collect()
+    let polygons = fan(corners).into_iter();
+    polygons
+        .map(|polygon| Target::new(&polygon, normal))
+        .collect()
 }
 
 /// Lines are at least so long, in units of the longest.

@@ -52,7 +52,7 @@ pub struct Unbalanced {
 
 /// Row sums above this are worth a warning.
 const EXCESSIVE: f64 = 1.001;
-/// What is off by more than so many errors is wrong. (Of some 10,000 rows of the scenes that are shipped
+/// What is off by more than so many errors is wrong. (Of some 9,000 rows of the scenes that are shipped
 /// none is.)
 const ERRORS: f64 = 5.0;
 /// What single precision leaves of row sums.

@@ -1,3 +1,5 @@
+//! Plates, squares and needles beside much larger faces, against closed forms.
+
 use super::*;
 use radiosity_geometry::{Divisions, Shape, Surface, subdivide};
 use std::f64::consts::PI;

@@ -1,3 +1,5 @@
+//! Walls with panels, rugs and copies of themselves on them, at an angle to all axes.
+
 use super::*;
 use crate::{Divisions, Mesh, Occluders, PolygonMesh, Ray, Shape, Surface, subdivide};
 use proptest::prelude::*;
