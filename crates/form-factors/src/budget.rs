@@ -14,6 +14,11 @@ use crate::quotient;
 use crate::tiles::{Group, Tile, Tiling};
 use rayon::prelude::*;
 
+/// So many pairs of patches stand for all of two tiles that are near each other: factors differ there.
+const NEAR_PAIRS: usize = 8;
+/// Tiles are near each other within so many of their sizes.
+const NEAR: f64 = 2.0;
+
 /// What pairs may add to the errors of rows.
 pub(crate) struct Budget {
     tolerance: f64,
@@ -44,23 +49,21 @@ impl Budget {
 }
 
 impl Estimation<'_> {
-    /// Estimates the weights of rows: of two tiles, one pair of patches stands for all.
+    /// Estimates the weights of rows: of two tiles, a few pairs of patches stand for all.
     pub(crate) fn budget(&self, accurate: &Accurate<'_>, tolerance: f64) -> Budget {
         let Tiling { tiles, groups, .. } = &self.tiling;
-        let sums = FixedSums::new(tiles.len());
+        let sums = FixedSums::new(self.mesh.patches.len());
         (0..tiles.len()).into_par_iter().for_each(|tile| {
             let before = groups.iter();
             for group in before.take_while(|group| group.tiles.start <= tile) {
                 self.add_weights(accurate, (tile, group), &sums);
             }
         });
-        let mut budget = Budget::new(tolerance, self.mesh.patches.len());
-        for (tile, weight) in tiles.iter().zip(sums.sums()) {
-            for &patch in &tile.patches {
-                budget.weights[patch] = weight;
-            }
+        let mut weights = sums.sums();
+        for tile in tiles {
+            raise_to_mean(&mut weights, &tile.patches);
         }
-        budget
+        Budget { tolerance, weights }
     }
 
     /// Adds what the pairs of a tile and a group weigh in the rows of both.
@@ -79,43 +82,72 @@ impl Estimation<'_> {
             return;
         }
         for other in group.tiles.clone().take_while(|&other| other <= tile) {
-            let pair = self.partly_hidden_pair([tile, other], &between);
-            let Some(pair) = pair else {
+            let pair = [tile, other].map(|tile| &tiles[tile]);
+            let Some(between) = self.view(&between, pair.map(|tile| &tile.part), FEW) else {
                 continue;
             };
-            let exchange = accurate.near(pair, &self.obstacles).value;
-            let [of_tile, of_other] = pair.map(|patch| quotient(exchange, self.areas[patch]));
-            let add = |to: usize, of: usize, factor: f64| {
-                sums.add(
-                    to,
-                    Fixed::of(tiles[of].patches.len() as f64 * factor.sqrt()),
-                );
-            };
-            add(tile, other, of_tile);
-            if other != tile {
-                add(other, tile, of_other);
+            if between.is_clear() {
+                continue;
+            }
+            let pairs = if self.are_near(pair) { NEAR_PAIRS } else { 1 };
+            for k in 0..pairs {
+                // Patches take turns, whichever of both tiles is the next.
+                let turns = [5 * tile + 3 * other + k, 3 * tile + 5 * other + 2 * k];
+                let patches =
+                    [0, 1].map(|end| pair[end].patches[turns[end] % pair[end].patches.len()]);
+                let of_tiles = pair[0].patches.len() * pair[1].patches.len();
+                // Of a tile with itself a pair is met from both ends.
+                let count = of_tiles as f64 / if other == tile { 2.0 } else { 1.0 };
+                self.add_weights_of_pair(accurate, (patches, count / pairs as f64), &between, sums);
             }
         }
     }
 
-    /// Two patches, one of each tile, if something stands between them that hides a part of one from
-    /// the other.
-    fn partly_hidden_pair(&self, pair: [usize; 2], between: &Between) -> Option<[usize; 2]> {
-        let tiles = pair.map(|tile| &self.tiling.tiles[tile]);
-        let parts = tiles.map(|tile| &tile.part);
-        let between = self.view(between, parts, FEW)?;
-        if between.is_clear() {
-            return None;
+    /// Whether something of this may hide a part of a patch from another, neither of which is covered.
+    fn is_partly_hidden(&self, pair: [usize; 2], between: &Between) -> bool {
+        let is_covered = pair.map(|patch| self.areas[patch] == 0.0);
+        let parts = pair.map(|patch| &self.parts[patch]);
+        let view = || self.view(between, parts, FEW);
+        is_covered == [false; 2] && view().is_some_and(|between| !between.is_clear())
+    }
+
+    /// Whether two tiles are near each other, as their first patches tell.
+    fn are_near(&self, tiles: [&Tile; 2]) -> bool {
+        let patches = tiles.map(|tile| &self.mesh.patches[tile.patches[0]]);
+        let area = |end: usize| tiles[end].patches.len() as f64 * patches[end].area;
+        let distance = patches[0].centroid.distance_squared(patches[1].centroid);
+        distance < NEAR * NEAR * (area(0) + area(1))
+    }
+
+    /// Adds what so many pairs like this one weigh in the rows of both, if something stands between them
+    /// that hides a part of one from the other.
+    fn add_weights_of_pair(
+        &self,
+        accurate: &Accurate<'_>,
+        (pair, count): ([usize; 2], f64),
+        between: &Between,
+        sums: &FixedSums,
+    ) {
+        if !self.is_partly_hidden(pair, between) {
+            return;
         }
-        // Any of them that are not covered, by a mix of both numbers.
-        let mixed = 5 * pair[0] + 3 * pair[1];
-        let any = |tile: &Tile| {
-            let count = tile.patches.len();
-            let mut patches = (0..count).map(|k| tile.patches[(mixed + k) % count]);
-            patches.find(|&patch| self.areas[patch] > 0.0)
-        };
-        let ends = [any(tiles[0])?, any(tiles[1])?];
-        let between = self.view(&between, ends.map(|patch| &self.parts[patch]), FEW)?;
-        (!between.is_clear()).then_some(ends)
+        let exchange = accurate.near(pair, &self.obstacles).value;
+        for patch in pair {
+            let weight = count * quotient(exchange, self.areas[patch]).sqrt();
+            sums.add(patch, Fixed::of(weight));
+        }
     }
 }
+
+/// Raises the weights of these patches to their mean: none of the few pairs of a patch that were looked at
+/// may be partly hidden, where others are.
+fn raise_to_mean(weights: &mut [f64], patches: &[usize]) {
+    let sum: f64 = patches.iter().map(|&patch| weights[patch]).sum();
+    let mean = sum / patches.len() as f64;
+    for &patch in patches {
+        weights[patch] = weights[patch].max(mean);
+    }
+}
+
+#[cfg(test)]
+mod tests;
