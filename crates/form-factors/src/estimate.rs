@@ -166,33 +166,10 @@ impl<'a> Estimation<'a> {
         Some(first..last)
     }
 
-    /// The patches in runs of up to eight that lie close together, on one face unless faces are
-    /// small.
-    pub fn clusters(&self) -> impl Iterator<Item = &[usize]> {
-        self.tiling.tiles.iter().map(|tile| tile.patches.as_slice())
-    }
-
     /// By patch, the area that exchanges light, in square scene units: for the accurate estimator without
     /// what other faces lie on, and 0 where they cover all.
     pub fn areas(&self) -> &[f64] {
         &self.areas
-    }
-
-    /// `S_ij`, in units of the total of these areas, of one patch `i` with all patches: a row by itself, for
-    /// whoever does not want all. The patch is named by its cluster and its place in it.
-    pub fn row(&self, cluster: usize, place: usize) -> Vec<f32> {
-        let mut row = vec![0.0; self.mesh.patches.len()];
-        let mut room = Room::default();
-        let mut tell = |_, told: Told<'_>| {
-            for (&j, &value) in told.others.iter().zip(told.values) {
-                row[j] = value;
-            }
-        };
-        for group in &self.tiling.groups {
-            let all = (group, group.tiles.clone());
-            self.against((cluster, place..place + 1), all, &mut room, &mut tell);
-        }
-        row
     }
 
     /// What all rows together make, once all are filled.

@@ -53,7 +53,7 @@ pub use error::Error;
 pub use export::{cells, radiosity_table, reference_table};
 pub use factor_export::{By, FactorTable};
 pub use observer::{Observer, Silent, Stage};
-pub use pipeline::{FormFactorsMade, PatchLight, Pipeline, Preview, Quantity, Shown, Solved};
+pub use pipeline::{FormFactorsMade, PatchLight, Pipeline, Quantity, Shown, Solved};
 pub use rows::{RowSummary, Unbalanced};
 
 pub use radiosity_cache as cache;

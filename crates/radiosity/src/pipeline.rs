@@ -16,14 +16,11 @@ use std::sync::OnceLock;
 mod covers;
 mod factors;
 mod pictures;
-mod preview;
 mod solution;
 mod visible;
 
 pub use pictures::{Quantity, Shown};
-pub use preview::Preview;
 pub use solution::Solved;
-pub(crate) use solution::Start;
 
 /// One scene on its way through the stages.
 pub struct Pipeline<'a> {
@@ -39,7 +36,6 @@ pub struct Pipeline<'a> {
     estimate: Key,
     /// And of those that are used.
     key: Key,
-    start: Option<Start>,
     /// Form factors that are used again, if they are to be kept.
     kept: Option<OnceLock<FormFactors>>,
 }
@@ -106,7 +102,6 @@ impl<'a> Pipeline<'a> {
             cache,
             observer,
             lights: (0..scene.lights.len()).map(of_light).collect(),
-            start: None,
             kept: None,
             reflectance: (0..patches)
                 .map(|patch| material(patch).reflectance)

@@ -8,7 +8,7 @@ use crate::lines::{
     class_line, closed_line, closure_line, error_line, indented, missed_line, row_line, scene_line,
     unbalanced_lines,
 };
-use crate::pipeline::{Pipeline, Preview, Solved};
+use crate::pipeline::{Pipeline, Solved};
 use crate::resources::{bytes, grouped};
 use crate::rows::RowSummary;
 use crate::solve_report::{SolveReport, solution_lines};
@@ -18,7 +18,6 @@ use radiosity_scene::Scene;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 /// Collects what happened; prints each line as soon as it is known.
 pub(crate) struct Report<'a> {
@@ -44,8 +43,6 @@ struct Json {
 struct Stages {
     #[serde(skip_serializing_if = "Option::is_none")]
     form_factors: Option<FormFactorReport>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    preview: Option<PreviewReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
     solve: Option<SolveReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -117,16 +114,6 @@ impl RowReport {
             closure: rows.closure,
         }
     }
-}
-
-/// Instead of form factors and a solution.
-#[derive(Debug, Serialize)]
-struct PreviewReport {
-    seconds: f64,
-    /// Of all pairs of patches, those that were looked at.
-    share: f64,
-    /// Of the lights' power, what was not followed further.
-    unshot: f64,
 }
 
 #[derive(Debug, Serialize)]
@@ -210,22 +197,6 @@ impl<'a> Report<'a> {
             self.terminal.line(&indented(&line));
         }
         self.json.stages.solve = Some(SolveReport::of(solved));
-    }
-
-    pub(crate) fn preview(&mut self, preview: &Preview, time: Duration) {
-        let seconds = time.as_secs_f64();
-        let how = format!("{:.1} % of the form factors", 100.0 * preview.share);
-        let line = format!("{:<14}{how:<36}{:>9}", "preview", format!("{seconds:.2} s"));
-        self.terminal.line(&line);
-        self.terminal.line(&indented(&format!(
-            "{:.1} % of the lights' power is not followed to its end and shows as an even glow",
-            100.0 * preview.unshot
-        )));
-        self.json.stages.preview = Some(PreviewReport {
-            seconds,
-            share: preview.share,
-            unshot: preview.unshot,
-        });
     }
 
     pub(crate) fn display(&mut self, display: DisplayReport) {

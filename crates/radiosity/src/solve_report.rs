@@ -18,10 +18,6 @@ pub(crate) struct SolveReport {
     relaxation: Option<f64>,
     /// Passes over the matrix.
     sweeps: usize,
-    /// How many the solution was worth that it started from, if it did: so many that had taken until
-    /// its residual was what this one started with.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    start_worth_sweeps: Option<usize>,
     /// True relative residual of the solution, of the worst light.
     residual: f64,
     /// Estimated relative error, of the worst light; null after too few passes.
@@ -59,7 +55,6 @@ impl SolveReport {
             },
             relaxation: report.relaxation,
             sweeps: report.residuals.len(),
-            start_worth_sweeps: solved.start_worth,
             residual: report.residual,
             error: report.error,
             converged: report.converged,
@@ -86,7 +81,7 @@ impl EnergyReport {
 /// The same for people.
 pub(crate) fn solution_lines(solved: &Solved) -> Vec<String> {
     let report = &solved.solution.report;
-    let mut lines = vec![course_line(report, solved.start_worth)];
+    let mut lines = vec![course_line(report)];
     lines.extend(energy_line(&solved.energy));
     if !report.converged {
         lines.push(warning(report));
@@ -95,7 +90,7 @@ pub(crate) fn solution_lines(solved: &Solved) -> Vec<String> {
 }
 
 /// How it was reached.
-fn course_line(report: &Convergence, start_worth: Option<usize>) -> String {
+fn course_line(report: &Convergence) -> String {
     let passes = report.residuals.len();
     let name = match report.method {
         Method::GaussSeidel(_) => "sweep",
@@ -107,14 +102,11 @@ fn course_line(report: &Convergence, start_worth: Option<usize>) -> String {
         (_, Some(factor)) if factor != 1.0 => format!(" overdone by {factor:.2}"),
         _ => String::new(),
     };
-    let start = start_worth.map_or(String::new(), |worth| {
-        format!("; the start was worth {worth}")
-    });
     let error = report.error.map_or(String::new(), |error| {
         format!(", an estimated {error:.0e} from exact")
     });
     let residual = report.residual;
-    format!("{passes} {name}{plural}{method} to residual {residual:.1e}{error}{start}")
+    format!("{passes} {name}{plural}{method} to residual {residual:.1e}{error}")
 }
 
 /// Where the power goes, over all channels.

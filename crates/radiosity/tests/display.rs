@@ -237,12 +237,6 @@ fn what_cannot_be_shown_is_explained() {
             3,
             "use --mode accurate",
         ),
-        (
-            "room.toml --show irradiance --preview",
-            3,
-            "leave out --preview",
-        ),
-        ("room.toml --gather 2 --preview", 3, "leave out --preview"),
         ("room.toml --only lampe", 3, "did you mean `lamp`?"),
         ("room.toml --turntable 3 --path 3", 2, "cannot be used with"),
         (

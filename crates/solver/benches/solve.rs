@@ -33,7 +33,7 @@ fn solutions(criterion: &mut Criterion) {
                 ..Params::default()
             };
             group.bench_function(name, |b| {
-                b.iter(|| solve(&system, None, &params, &mut |_| ()));
+                b.iter(|| solve(&system, &params, &mut |_| ()));
             });
         }
         group.finish();

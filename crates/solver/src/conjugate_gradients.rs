@@ -208,10 +208,6 @@ impl<'a> ConjugateGradients<'a> {
 }
 
 impl Iteration for ConjugateGradients<'_> {
-    fn first_residual(&self) -> f64 {
-        self.problem.relative(|k| self.z[k])
-    }
-
     fn advance(&mut self) -> Progress {
         if let Some(best) = self.best.take_if(|_| self.is_verified) {
             self.restart(&best.x, &best.sums);

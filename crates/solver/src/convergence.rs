@@ -20,8 +20,6 @@ pub struct Convergence {
     pub residual: f64,
     /// The residual after each pass over the matrix, as the method knows it.
     pub residuals: Vec<f64>,
-    /// The residual of the radiosities that it started from.
-    pub first_residual: f64,
     /// An estimate of `||B - exact B|| / ||B||`, from the rate at which changes shrank (over all
     /// channels of a light) or from the smallest Ritz value; none after too few passes.
     pub error: Option<f64>,

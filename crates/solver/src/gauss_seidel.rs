@@ -190,10 +190,6 @@ fn best_factor(reflectance: f64) -> f64 {
 }
 
 impl Iteration for GaussSeidel<'_> {
-    fn first_residual(&self) -> f64 {
-        self.residual()
-    }
-
     fn advance(&mut self) -> Progress {
         self.sweep();
         let change = self.changes.last().copied().unwrap_or(0.0);

@@ -11,8 +11,7 @@
 //! over the matrix, and a lamp that is dimmed afterwards needs no new solution
 //! ([`relit`]). Each method is one file: [`Method::GaussSeidel`], with over-relaxation,
 //! and [`Method::ConjugateGradients`]; all share the pass
-//! ([`radiosity_matrix::SymmetricMatrix::sweep`]) and the report ([`Convergence`]). [`Progressive`] gives a first picture before all form factors are
-//! known.
+//! ([`radiosity_matrix::SymmetricMatrix::sweep`]) and the report ([`Convergence`]).
 //!
 //! This crate knows nothing of geometry, names or files: errors carry patch indices.
 
@@ -24,7 +23,6 @@ mod energy;
 mod gauss_seidel;
 mod power_iteration;
 mod problem;
-mod progressive;
 mod solution;
 mod solve;
 mod system;
@@ -36,13 +34,12 @@ pub use convergence::Convergence;
 pub use diagnosis::SolveError;
 pub use energy::Energy;
 pub use gauss_seidel::Relaxation;
-pub use progressive::Progressive;
 pub use solution::{Solution, relit};
 pub use solve::{Method, Params, solve};
 pub use system::System;
 
 /// Raise it whenever the same input would give another solution: it is part of its key.
-pub const VERSION: u32 = 7;
+pub const VERSION: u32 = 8;
 
 /// Red, green, blue.
 pub type Rgb = [f64; 3];

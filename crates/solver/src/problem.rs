@@ -9,9 +9,6 @@ pub(crate) type Values<T> = Vec<Triple<T>>;
 
 /// Relative changes below this may change nothing, in single precision.
 pub(crate) const LOST: f64 = 1.0 / (1 << 24) as f64;
-/// Multiples of the largest emission from which no start is worth its passes; beyond, single
-/// precision ends.
-const OUT_OF_REACH: f64 = 1e30;
 
 /// `x_i = E_i + gain_i sum_j S_ij x_j`, for each channel of each light in units of its own largest
 /// emission: channels know nothing of each other, and no square overflows or vanishes, however
@@ -99,24 +96,7 @@ impl<'a> Problem<'a> {
         (0..self.emission.len()).map(at).collect()
     }
 
-    /// Radiosities in W/m^2, light by light, as the methods see them.
-    pub(crate) fn of_lights(&self, lights: &[Vec<Triple<f32>>]) -> Values<f32> {
-        assert_eq!(lights.len(), self.lights(), "radiosities of each light");
-        let at = |(k, emission): (usize, &Triple<f32>)| -> Triple<f32> {
-            let (i, light) = (k / self.lights(), k % self.lights());
-            std::array::from_fn(|c| {
-                let start = f64::from(lights[light][i][c]) / self.units[light][c];
-                // Dark channels stay dark, black patches are known, and the other solution may have
-                // been in units out of reach.
-                let is_lit = self.norms[light][c] > 0.0 && self.gain[i][c] > 0.0;
-                let is_usable = is_lit && start.abs() < OUT_OF_REACH;
-                if is_usable { start as f32 } else { emission[c] }
-            })
-        };
-        self.emission.iter().enumerate().map(at).collect()
-    }
-
-    /// The same the other way round.
+    /// Radiosities in W/m^2, light by light.
     pub(crate) fn to_lights(&self, x: &[Triple<f32>]) -> Vec<Vec<Triple<f32>>> {
         let in_watts = |x: &Triple<f32>, unit: &Rgb| -> Triple<f32> {
             std::array::from_fn(|c| (f64::from(x[c]) * unit[c]) as f32)

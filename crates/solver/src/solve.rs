@@ -54,9 +54,6 @@ impl Default for Params {
 
 /// A method on its way.
 pub(crate) trait Iteration {
-    /// The residual of the values that it starts from.
-    fn first_residual(&self) -> f64;
-
     /// Takes one pass over the matrix (conjugate gradients take one more to be sure of the last).
     fn advance(&mut self) -> Progress;
 
@@ -67,32 +64,22 @@ pub(crate) trait Iteration {
     fn finish(self: Box<Self>) -> (Values<f32>, Values<f64>);
 }
 
-/// Solves the system for all lights, from `B = E` or from other radiosities in the form of
-/// [`Solution::lights`]. `progress` is told the residual after each pass.
+/// Solves the system for all lights, from `B = E` on. `progress` is told the residual after each pass.
 ///
 /// # Errors
 ///
 /// If there is no solution, or one that single precision does not hold, or if the input has numbers
 /// that are none.
-///
-/// # Panics
-///
-/// If `start` has another shape than the system.
 pub fn solve(
     system: &System<'_>,
-    start: Option<&[Vec<[f32; 3]>]>,
     params: &Params,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Solution, SolveError> {
     diagnosis::check_materials(system)?;
     let problem = Problem::new(system);
     let mut x = problem.emission.clone();
-    let mut sums = problem.sums(&mut x);
+    let sums = problem.sums(&mut x);
     let direct = problem.to_lights(&problem.reflected(&sums));
-    if let Some(start) = start {
-        x = problem.of_lights(start);
-        sums = problem.sums(&mut x);
-    }
     let mut iteration: Box<dyn Iteration + '_> = match params.method {
         Method::GaussSeidel(relaxation) => {
             Box::new(GaussSeidel::new(&problem, (x, sums), relaxation))
@@ -103,7 +90,6 @@ pub fn solve(
             params.tolerance,
         )),
     };
-    let first_residual = iteration.first_residual();
     let mut residuals: Vec<f64> = Vec::new();
     let (mut converged, mut stalled, mut error) = (problem.is_dark(), false, None);
     while !converged && !stalled && residuals.len() < params.max_passes as usize {
@@ -141,7 +127,6 @@ pub fn solve(
             converged,
             stalled,
             residual,
-            first_residual,
             residuals,
             error,
             relaxation,

@@ -238,7 +238,7 @@ fn radiosities(scene: &Scene) -> Result<Vec<[f32; 3]>, Error> {
 }
 
 /// Of the squares of all channels.
-pub(super) fn relative_error(found: &[[f32; 3]], truth: &[[f32; 3]]) -> f64 {
+fn relative_error(found: &[[f32; 3]], truth: &[[f32; 3]]) -> f64 {
     let pairs = || found.as_flattened().iter().zip(truth.as_flattened());
     let squares = |error: fn(f64, f64) -> f64| -> f64 {
         pairs()

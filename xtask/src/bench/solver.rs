@@ -1,17 +1,15 @@
 //! How near the solver comes to the speed of memory, what each method takes, and the course's loop
 //! beside them.
 
-use super::form_factors::relative_error;
 use super::{Figure, Target, best_seconds, course, median};
 use radiosity::cache::Store;
 use radiosity::form_factors::FormFactors;
 use radiosity::matrix::SymmetricMatrix;
 use radiosity::scene::{Mode, Scene, load};
 use radiosity::solver::{Convergence, Method, relit};
-use radiosity::{Error, Pipeline, Silent, Sources, cells};
+use radiosity::{Error, Pipeline, Silent, Sources};
 use rayon::prelude::*;
 use std::path::Path;
-use std::time::Instant;
 
 /// Patches along each edge of the course's rectangles: 1,728, 6,912 and 27,648 patches.
 const SIZES: [u32; 3] = [12, 24, 48];
@@ -20,8 +18,6 @@ const TOLERANCE: f64 = 0.01;
 /// Reflectances of the closed room.
 const REFLECTANCES: [f64; 3] = [0.5, 0.9, 0.95];
 const RESIDUALS: [f64; 2] = [1e-3, 1e-6];
-/// Percent of the form factors that previews are made from.
-const PREVIEWS: [f64; 2] = [2.0, 10.0];
 
 /// Of the bandwidth, for one light; how much longer four may take; how many passes; how many times
 /// faster than the course's 40 sweeps.
@@ -42,7 +38,6 @@ pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
         let cornell = scene(root, "cornell", divisions)?;
         let made = form_factors(&cornell, &store)?;
         figures.extend(passes(&made));
-        figures.extend(previews(&cornell, &made)?);
         figures.extend(methods(cornell, &made)?);
         figures.push(beside_the_course(&made, &figures));
         let closed = scene(root, "cornell-closed", divisions)?;
@@ -204,35 +199,6 @@ fn methods(mut scene: Scene, made: &FormFactors) -> Result<Vec<Figure>, Error> {
 fn passes_of(report: &Convergence) -> f64 {
     let extra = usize::from(report.method == Method::ConjugateGradients);
     (report.residuals.len() + extra) as f64
-}
-
-/// How far previews are off, and what they take.
-fn previews(scene: &Scene, made: &FormFactors) -> Result<Vec<Figure>, Error> {
-    let pipeline = Pipeline::new(scene, None, &Silent)?;
-    let patches = made.areas.len();
-    let cells = cells(scene, pipeline.mesh());
-    let truth = relit(&pipeline.solve(made)?.lights, &[[1.0; 3]]);
-    let lit = |radiosity: &[[f32; 3]]| -> Vec<[f32; 3]> {
-        let patches = radiosity.iter().zip(&cells);
-        patches
-            .filter(|(_, cell)| !cell.emits)
-            .map(|(b, _)| *b)
-            .collect()
-    };
-    let mut figures = Vec::new();
-    for percent in PREVIEWS {
-        let start = Instant::now();
-        let preview = pipeline.preview(percent / 100.0)?;
-        let milliseconds = 1e3 * start.elapsed().as_secs_f64();
-        let error = 100.0 * relative_error(&lit(&preview.light.radiosity), &lit(&truth));
-        let figure = |what: &str, value: f64, unit| {
-            let name = format!("solver.{patches}.preview.{percent}.{what}");
-            Figure::new(name, Some(value), unit, None)
-        };
-        figures.push(figure("error", error, "% of the radiosities"));
-        figures.push(figure("ms", milliseconds, "ms, form factors included"));
-    }
-    Ok(figures)
 }
 
 /// The course's sweeps beside the default solution of the same scene.

@@ -172,7 +172,7 @@ pub struct SolveCommand {
     #[arg(help_heading = "Results", long, value_name = "FILE.csv", value_parser = path_ending_in(&["csv"]))]
     pub export: Option<PathBuf>,
     /// Solve by every method, and draw how the residual falls with each pass; the path ends in .svg
-    #[arg(help_heading = "Results", long, value_name = "FILE.svg", value_parser = path_ending_in(&["svg"]), conflicts_with_all = ["no_cache", "preview"])]
+    #[arg(help_heading = "Results", long, value_name = "FILE.svg", value_parser = path_ending_in(&["svg"]), conflicts_with = "no_cache")]
     pub plot: Option<PathBuf>,
 }
 

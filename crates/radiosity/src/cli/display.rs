@@ -2,7 +2,6 @@
 
 use super::args::DisplayCommand;
 use super::live::Live;
-use super::look::Look;
 use super::run::{light, make_folder, store, with_threads};
 use super::save::Folder;
 use super::series::{Series, Sheet, check_names};
@@ -10,9 +9,8 @@ use super::site::Site;
 use super::terminal::Terminal;
 use crate::artifact::{How, Sources};
 use crate::error::Error;
-use crate::pipeline::{Pipeline, Quantity};
+use crate::pipeline::Pipeline;
 use crate::report::{DisplayReport, Report};
-use radiosity_renderer::Shading;
 use radiosity_scene::Scene;
 use std::time::Instant;
 
@@ -33,7 +31,6 @@ fn display(args: &DisplayCommand, scene: &Scene, site: &Site) -> Result<(), Erro
     let mut pipeline = Pipeline::new(scene, store.as_ref(), &terminal)?;
     let shots = args.display.views.shots(scene, pipeline.mesh())?;
     let looks = args.display.show.looks(scene, pipeline.mesh())?;
-    check_preview(args, &looks)?;
     check_names(&args.display, &looks, &shots)?;
     make_folder(folder)?;
     let needs_factors = looks.iter().any(|look| look.quantity.needs_factors());
@@ -41,20 +38,19 @@ fn display(args: &DisplayCommand, scene: &Scene, site: &Site) -> Result<(), Erro
         pipeline.keep_form_factors();
     }
     let mut report = Report::new(scene, pipeline.mesh(), &terminal);
-    let (light, untouched) = light(&mut pipeline, &args.solve, Sources::Cached, &mut report)?;
-    if needs_factors && untouched == Some(How::NotNeeded) {
+    let (light, how) = light(&pipeline, Sources::Cached, &mut report)?;
+    if needs_factors && how == How::NotNeeded {
         let made = pipeline.form_factors(Sources::Cached)?;
         report.form_factors(&made.origin, &made.rows, &pipeline);
     }
     let start = Instant::now();
-    let is_preview = args.solve.preview.is_some();
     let mut series = Series {
         args: &args.display,
         pipeline: &pipeline,
         looks: &looks,
         shots: &shots,
         live: Live::new(!args.estimate.json && !args.display.no_live),
-        folder: Folder::new(folder, &args.display.format, &pipeline, is_preview),
+        folder: Folder::new(folder, &args.display.format, &pipeline),
         sheet: Sheet::default(),
     };
     series.take(&light)?;
@@ -63,19 +59,4 @@ fn display(args: &DisplayCommand, scene: &Scene, site: &Site) -> Result<(), Erro
     });
     report.outputs(series.folder.written);
     report.finish()
-}
-
-/// Refuses what a preview does not know.
-fn check_preview(args: &DisplayCommand, looks: &[Look]) -> Result<(), Error> {
-    let is_simple = |shading: &Shading| matches!(shading, Shading::Constant | Shading::Smooth);
-    let are_simple = args.display.shadings().iter().all(is_simple);
-    let is_known = |look: &Look| look.quantity == Quantity::Radiosity;
-    if args.solve.preview.is_none() || are_simple && looks.iter().all(is_known) {
-        return Ok(());
-    }
-    Err(Error::Input(
-        "a preview knows all light alone, as patches have it\n   \
-         = help: leave out --preview, or show light or radiosity, constant or smooth"
-            .to_owned(),
-    ))
 }

@@ -69,13 +69,6 @@ pub(super) fn path_ending_in(
     })
 }
 
-pub(super) fn parse_percent(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(percent) if percent > 0.0 && percent <= 100.0 => Ok(percent),
-        _ => Err("expected a percentage above 0, up to 100".to_owned()),
-    }
-}
-
 /// `1.2` or `auto`.
 pub(super) fn parse_relaxation(text: &str) -> Result<Relaxation, String> {
     if text == "auto" {

@@ -10,7 +10,6 @@ use super::inspect;
 use super::reference;
 use super::signals::remove_unfinished_on_signals;
 use super::site::Site;
-use super::solver_args::SolveArgs;
 use super::terminal::{Terminal, tell};
 use crate::artifact::{How, Sources};
 use crate::error::Error;
@@ -23,7 +22,6 @@ use radiosity_simd::InstructionSet;
 use std::io;
 use std::path::Path;
 use std::process::ExitCode;
-use std::time::Instant;
 
 /// Runs a command and prints what it has to say; the exit code is 0, or that of the error.
 pub fn run(command: &Command, site: &Site) -> ExitCode {
@@ -67,9 +65,9 @@ fn solve(args: &SolveCommand, site: &Site, sources: Sources) -> Result<(), Error
     let terminal = Terminal::new(args.estimate.json);
     with_threads(args.estimate.threads, || {
         let store = store(&args.estimate, site);
-        let mut pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
+        let pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
         let mut report = Report::new(&scene, pipeline.mesh(), &terminal);
-        let (light, _) = light(&mut pipeline, &args.solve, sources, &mut report)?;
+        let (light, _) = light(&pipeline, sources, &mut report)?;
         if let Some(path) = &args.export {
             write(
                 path,
@@ -90,25 +88,17 @@ fn solve(args: &SolveCommand, site: &Site, sources: Sources) -> Result<(), Error
 }
 
 /// What patches shine with, with each stage reported as soon as it is done; and how the form factors were
-/// come by, if they were.
+/// come by.
 pub(super) fn light(
-    pipeline: &mut Pipeline<'_>,
-    args: &SolveArgs,
+    pipeline: &Pipeline<'_>,
     sources: Sources,
     report: &mut Report<'_>,
-) -> Result<(PatchLight, Option<How>), Error> {
-    if let Some(percent) = args.preview {
-        let start = Instant::now();
-        let preview = pipeline.preview(percent / 100.0)?;
-        report.preview(&preview, start.elapsed());
-        return Ok((preview.light, None));
-    }
-    args.start(pipeline)?;
+) -> Result<(PatchLight, How), Error> {
     let solved = pipeline.solution_after(sources, &mut |origin, rows| {
         report.form_factors(origin, rows, pipeline);
     })?;
     report.solution(&solved, pipeline);
-    Ok((solved.light, Some(solved.form_factors.how)))
+    Ok((solved.light, solved.form_factors.how))
 }
 
 pub(super) fn store(args: &EstimateArgs, site: &Site) -> Option<Store> {

@@ -29,20 +29,13 @@ pub(super) struct Folder<'a> {
 }
 
 impl<'a> Folder<'a> {
-    /// `solution` is the key of what is shown, if it has one.
     pub(super) fn new(
         path: &'a Path,
         formats: &'a [FormatArg],
         pipeline: &Pipeline<'a>,
-        is_preview: bool,
     ) -> Folder<'a> {
         let scene = pipeline.scene();
         let patches = pipeline.mesh().patches.len();
-        let solution = if is_preview {
-            "none: a preview".to_owned()
-        } else {
-            pipeline.solution_key().to_string()
-        };
         let version = concat!("radiosity ", env!("CARGO_PKG_VERSION"));
         let is_new = |k: &usize| !formats[..*k].contains(&formats[*k]);
         Folder {
@@ -56,7 +49,7 @@ impl<'a> Folder<'a> {
             metadata: vec![
                 ("Software", version.to_owned()),
                 ("Scene", scene.name.clone()),
-                ("Solution", solution),
+                ("Solution", pipeline.solution_key().to_string()),
                 ("Lights", dimmed_lights(scene)),
                 (
                     "Settings",

@@ -1,12 +1,9 @@
 //! How to solve, on the command line.
 
 use super::choices::SolverArg;
-use super::parse::{parse_percent, parse_relaxation, parse_tolerance};
-use crate::error::Error;
-use crate::pipeline::Pipeline;
+use super::parse::{parse_relaxation, parse_tolerance};
 use clap::Args;
 use radiosity_scene::{Relaxation, Scene, SolverMethod};
-use std::path::PathBuf;
 
 /// How to solve, and when to stop.
 #[derive(Debug, Args)]
@@ -25,14 +22,6 @@ pub struct SolveArgs {
     /// Most passes over the matrix to take
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub max_sweeps: Option<u32>,
-    /// Start from the solution in this file of the cache, of the same patches: fewer passes where a
-    /// colour or a lamp has changed a little
-    #[arg(long, value_name = "FILE.bin")]
-    pub start_from: Option<PathBuf>,
-    /// Do not wait: so many percent of the form factors, where most light leaves from, and an even
-    /// glow for the rest of it; patches shoot by eights, so 25 is all there is [default: 5]
-    #[arg(long, value_name = "PERCENT", num_args = 0..=1, default_missing_value = "5", value_parser = parse_percent, conflicts_with_all = ["start_from", "solver", "relaxation", "residual", "max_sweeps", "closure"])]
-    pub preview: Option<f64>,
 }
 
 impl SolveArgs {
@@ -48,14 +37,6 @@ impl SolveArgs {
         settings.max_sweeps = self.max_sweeps.unwrap_or(settings.max_sweeps);
         if self.relaxation.is_some() && settings.method == SolverMethod::ConjugateGradients {
             super::terminal::tell("warning: --relaxation is for gauss-seidel, and changes nothing");
-        }
-    }
-
-    /// Has the pipeline start where it should.
-    pub(crate) fn start(&self, pipeline: &mut Pipeline<'_>) -> Result<(), Error> {
-        match &self.start_from {
-            Some(file) => pipeline.start_from(file),
-            None => Ok(()),
         }
     }
 }

@@ -8,10 +8,9 @@ use crate::facts::{self, SOLUTION, SolutionFacts};
 use crate::observer::Stage;
 use crate::rows::RowSummary;
 use crate::settings;
-use radiosity_cache::{Id, Key, Miss, Store, open};
+use radiosity_cache::{Id, Key, Miss, Store};
 use radiosity_form_factors::{FormFactors, RowFacts};
-use radiosity_solver::{self as solver, Convergence, Energy, Method, Solution, System};
-use std::path::Path;
+use radiosity_solver::{self as solver, Energy, Method, Solution, System};
 use std::time::Instant;
 
 /// A solution, where it came from, and what it was made from.
@@ -28,51 +27,12 @@ pub struct Solved {
     pub rows: RowSummary,
     /// Where those came from.
     pub form_factors: Origin,
-    /// How many passes the other solution was worth that this one started from: so many it had taken
-    /// itself until its residual was what this one started with.
-    pub start_worth: Option<usize>,
-}
-
-/// Another solution, to start from.
-pub(crate) struct Start {
-    key: Key,
-    /// After each pass that it took.
-    residuals: Vec<f64>,
-    names: Vec<String>,
-    lights: Vec<Vec<[f32; 3]>>,
 }
 
 /// Into how many steps the solver's progress is divided.
 const SOLVER_STEPS: u64 = 100;
 
 impl Pipeline<'_> {
-    /// Has the solver start from the solution in a file of the cache, light by light of the same
-    /// name. Its key becomes part of that of the new solution.
-    pub fn start_from(&mut self, path: &Path) -> Result<(), Error> {
-        let start = Start::read(path)?;
-        let (found, patches) = (start.patches(), self.mesh.patches.len());
-        let is_dark = start.lights.is_empty();
-        if found != patches && !is_dark {
-            return Err(Error::Input(format!(
-                "{}: the solution is of {found} patches, and this scene has {patches}\n   \
-                 = help: start from one of the same surfaces, cut in the same way",
-                path.display()
-            )));
-        }
-        let names = self.light_names();
-        if !is_dark && !start.names.iter().any(|name| names.contains(name)) {
-            return Err(Error::Input(format!(
-                "{}: the solution is of the lights `{}`, and this scene has `{}`\n   \
-                 = help: start from one with a light of the same name",
-                path.display(),
-                start.names.join("`, `"),
-                names.join("`, `"),
-            )));
-        }
-        self.start = Some(start);
-        Ok(())
-    }
-
     /// Stage 3: the solution. `sources` is about the solution alone; form factors are taken
     /// from the cache where possible, and not even looked at where the solution is cached.
     pub fn solution(&self, sources: Sources) -> Result<Solved, Error> {
@@ -124,10 +84,6 @@ impl Pipeline<'_> {
         Ok(Solved {
             light: self.finite(self.light_of(&solution, visible))?,
             energy: solution.energy(&settings::dimming(self.scene)),
-            start_worth: self
-                .start
-                .as_ref()
-                .map(|start| start.worth(&solution.report)),
             solution,
             origin,
             rows,
@@ -180,10 +136,6 @@ impl Pipeline<'_> {
             &self.lights,
             &self.reflectance,
             settings::solver_params(self.scene),
-            // With a start, names say which light starts from which.
-            self.start
-                .as_ref()
-                .map(|start| (start.key.bytes(), &start.names, self.light_names())),
         );
         self.id(SOLUTION, Key::of(SOLUTION, solver::VERSION, &inputs))
     }
@@ -208,14 +160,13 @@ impl Pipeline<'_> {
             backs: &share(|row| row.backs),
             background: &share(|row| row.background),
         };
-        let start = self.start.as_ref().map(|start| self.start_of(start));
         let params = solver::Params {
             method,
             ..settings::solver_params(self.scene)
         };
         self.observer.begin(Stage::Solve, SOLVER_STEPS);
         let mut reached = 0;
-        let solution = solver::solve(&system, start.as_deref(), &params, &mut |residual| {
+        let solution = solver::solve(&system, &params, &mut |residual| {
             // Residuals fall by a factor per sweep, so their logarithm goes evenly.
             let share = (residual.ln() / params.tolerance.ln()).clamp(0.0, 1.0);
             let now = (share * SOLVER_STEPS as f64) as u64;
@@ -224,68 +175,6 @@ impl Pipeline<'_> {
         });
         self.observer.end();
         solution.map_err(|error| self.of_solver(&error))
-    }
-
-    /// Where each light starts: from what the other solution has of it, or from its emission.
-    fn start_of(&self, start: &Start) -> Vec<Vec<[f32; 3]>> {
-        let to_f32 = |e: &[f64; 3]| e.map(|channel| channel as f32);
-        let light = |(name, emission): (String, &Vec<[f64; 3]>)| {
-            let known = start.names.iter().position(|other| *other == name);
-            known.map_or_else(
-                || emission.iter().map(to_f32).collect(),
-                |known| start.lights[known].clone(),
-            )
-        };
-        self.light_names()
-            .into_iter()
-            .zip(&self.lights)
-            .map(light)
-            .collect()
-    }
-}
-
-impl Start {
-    fn read(path: &Path) -> Result<Start, Error> {
-        let unusable = |problem: &dyn std::fmt::Display| {
-            Error::Input(format!(
-                "{}: {problem}\n   = help: give a solution's .bin file; `cache list` names them",
-                path.display()
-            ))
-        };
-        if path.is_dir() {
-            return Err(unusable(&"this is a folder"));
-        }
-        let opened = open(path).map_err(|miss| unusable(&miss))?;
-        if opened.stage != SOLUTION {
-            return Err(unusable(&format!(
-                "this is no solution but {}",
-                opened.stage
-            )));
-        }
-        let key = opened.key;
-        let artifact = opened.into_artifact::<SolutionFacts>();
-        let (facts, values) = artifact
-            .and_then(radiosity_cache::Artifact::into_values)
-            .map_err(|miss| unusable(&miss))?;
-        let is_sound = facts.are_sound(values.as_ref());
-        let lights = by_light(values.as_ref(), facts.lights.len()).filter(|_| is_sound);
-        let (lights, _) = lights.ok_or_else(|| unusable(&Miss::Header))?;
-        values.check().map_err(|changed| unusable(&changed))?;
-        Ok(Start {
-            key,
-            residuals: facts.report.residuals,
-            names: facts.lights,
-            lights,
-        })
-    }
-
-    fn worth(&self, report: &Convergence) -> usize {
-        let is_worse = |residual: &&f64| **residual > report.first_residual;
-        self.residuals.iter().take_while(is_worse).count()
-    }
-
-    fn patches(&self) -> usize {
-        self.lights.first().map_or(0, Vec::len)
     }
 }
 

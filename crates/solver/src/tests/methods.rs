@@ -128,7 +128,6 @@ proptest! {
             let lights = case.lights.iter().map(double).collect();
             let doubled = solve(
                 &System { lights: &Vec::from_iter::<Vec<Vec<Rgb>>>(lights), ..case.system() },
-                None,
                 &with(method),
                 &mut |_| (),
             );

@@ -3,7 +3,6 @@
 mod iterates;
 mod lights;
 mod methods;
-mod progressive;
 mod scales;
 mod trouble;
 
@@ -94,7 +93,7 @@ impl Case {
     }
 
     fn solve(&self, params: &Params) -> Solution {
-        solve(&self.system(), None, params, &mut |_| ()).unwrap()
+        solve(&self.system(), params, &mut |_| ()).unwrap()
     }
 }
 

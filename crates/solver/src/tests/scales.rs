@@ -17,7 +17,7 @@ fn solve_lights(case: &Case, lights: &[Vec<Rgb>], params: &Params) -> Solution {
         lights,
         ..case.system()
     };
-    solve(&system, None, params, &mut |_| ()).unwrap()
+    solve(&system, params, &mut |_| ()).unwrap()
 }
 
 /// Powers of two, which change no digit.
@@ -168,7 +168,7 @@ fn radiosities_out_of_range_are_refused() {
         let mut case = Case::uniform_enclosure(5, [1.0, 1.0, emission], [rho; 3]);
         case.lights[0][0] = [0.0; 3];
         for method in METHODS {
-            let error = solve(&case.system(), None, &with(method), &mut |_| ()).unwrap_err();
+            let error = solve(&case.system(), &with(method), &mut |_| ()).unwrap_err();
             let is_known = matches!(error, SolveError::OutOfRange { .. });
             assert!(is_known, "{method:?}, {emission:e}: {error}");
         }

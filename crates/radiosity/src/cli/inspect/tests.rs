@@ -36,7 +36,6 @@ fn solution_facts() -> SolutionFacts {
             stalled: false,
             residual: 1e-7,
             residuals: vec![1.0, 1e-7],
-            first_residual: 1.0,
             error: None,
             relaxation: None,
             energies: vec![Energy::default()],
