@@ -1,12 +1,12 @@
 //! Where one picture is brighter than another.
 
-use radiosity_renderer::{Image, Picture};
+use radiosity_image::{Image, Rgb8Image};
 
 /// A picture of differences, and what its colours mean.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DifferencePicture {
     /// White: equal. Red: brighter than the reference. Blue: darker.
-    pub picture: Picture,
+    pub picture: Rgb8Image,
     /// The difference that is shown at full colour, in W/(m^2 sr).
     pub full_scale: f64,
 }
@@ -33,7 +33,7 @@ pub fn difference_picture(found: &Image, reference: &Image) -> DifferencePicture
         }
     };
     DifferencePicture {
-        picture: Picture {
+        picture: Rgb8Image {
             width: found.width,
             height: found.height,
             bytes: differences.iter().flat_map(color).collect(),

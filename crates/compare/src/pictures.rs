@@ -1,9 +1,7 @@
 //! The measure for pictures.
 
-use crate::decode::Decoded;
 use crate::errors::{Differences, Errors};
-use crate::regions::Regions;
-use radiosity_renderer::Image;
+use radiosity_image::{Decoded, Image, Regions};
 use std::collections::BTreeMap;
 
 /// Why two pictures cannot be compared.

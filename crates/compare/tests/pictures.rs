@@ -1,16 +1,8 @@
-//! The measure for pictures, and the formats that pictures come in.
+//! The measure for pictures.
 
-use proptest::prelude::*;
-use radiosity_compare::{
-    Decoded, PictureError, Regions, Screen, compare_pictures, decode_picture, decode_regions,
-    difference_picture,
-};
-use radiosity_renderer::{Image, PictureFormat, ToneMap, Transfer, encode, encode_hdr, encode_pfm};
-
-const SCREEN: Screen = Screen {
-    exposure: 4.0,
-    transfer: None,
-    usual: Transfer::Gamma(2.2),
+use radiosity_compare::{PictureError, compare_pictures, difference_picture};
+use radiosity_image::{
+    DecodeParams, Decoded, Image, PictureFormat, Regions, ToneMap, Transfer, decode_picture, encode,
 };
 
 fn image(width: u32, pixels: Vec<[f32; 3]>) -> Image {
@@ -94,103 +86,20 @@ fn what_cannot_be_compared_is_refused() {
     assert_eq!(compare(&ramp(), &black), PictureError::Nothing);
 }
 
+/// The brightest level of a reference is clamped, since it stands for anything above.
 #[test]
-fn float_maps_come_back_as_they_went() {
-    assert_eq!(
-        decode_picture(&encode_pfm(&ramp()), &SCREEN),
-        Ok(linear(ramp()))
-    );
-    let big_endian = [b"PF 1 1 2.0\n".as_slice(), &1.5f32.to_be_bytes().repeat(3)].concat();
-    let decoded = decode_picture(&big_endian, &SCREEN).unwrap();
-    assert_eq!(decoded.image.pixels, [[3.0; 3]]);
-}
-
-/// Levels come back as the radiance they stand for, within half a level; the brightest level of
-/// a reference is clamped, since it stands for anything above.
-#[test]
-fn levels_become_radiance() {
-    // The line and the power of sRGB are nowhere steeper than a gamma of 2.4.
-    for (transfer, gamma) in [
-        (Transfer::Gamma(2.2), 2.2),
-        (Transfer::Gamma(1.8), 1.8),
-        (Transfer::Srgb, 2.4),
-    ] {
-        let screen = Screen {
-            transfer: Some(transfer),
-            ..SCREEN
-        };
-        let tone = ToneMap::clamped(4.0, transfer);
-        let picture = tone.apply(&ramp());
-        let mut decoded = Vec::new();
-        for format in [
-            PictureFormat::Ppm,
-            PictureFormat::PlainPpm,
-            PictureFormat::Png(transfer),
-        ] {
-            decoded.push(decode_picture(&encode(&picture, format, &[]), &screen).unwrap());
-        }
-        assert!(
-            decoded
-                .iter()
-                .all(|other| *other == decoded[0] && other.levels)
-        );
-        for (before, after) in ramp().pixels.iter().zip(&decoded[0].image.pixels) {
-            for (&before, &after) in before.iter().zip(after) {
-                let shown = f64::from(before.min(0.25));
-                // d(level) = 1/510, so d(radiance) = gamma / 4 * brightness^(1 - 1 / gamma) / 510,
-                // and more by curvature near black.
-                assert!((shown - f64::from(after)).abs() < 1.1 * gamma / 4.0 / 510.0);
-            }
-        }
-        let unclamped = ramp().pixels.iter().filter(|pixel| pixel[2] < 0.25).count();
-        let (name, errors) = &compare_pictures(&ramp(), &decoded[0], None, 4.0).unwrap()[0];
-        assert_eq!((name.as_str(), errors.values), ("all", 3 * unclamped));
-    }
-}
-
-/// What a PNG says of its gamma counts unless another is stated.
-#[test]
-fn pictures_may_know_their_gamma() {
-    for own in [Transfer::Gamma(1.0), Transfer::Srgb] {
-        let picture = ToneMap::clamped(4.0, own).apply(&ramp());
-        let png = encode(&picture, PictureFormat::Png(own), &[]);
-        let radiance = |transfer| {
-            // What is usual elsewhere does not matter.
-            let screen = Screen {
-                transfer,
-                usual: Transfer::Gamma(1.7),
-                ..SCREEN
-            };
-            decode_picture(&png, &screen).unwrap().image.pixels[1][0]
-        };
-        assert!((radiance(None) - 0.03).abs() < 1e-3);
-        let other = Transfer::Gamma(2.2).decode(f64::from(own.encode(0.12))) / 4.0;
-        assert!((f64::from(radiance(Some(Transfer::Gamma(2.2)))) - other).abs() < 1e-3);
-    }
-}
-
-#[test]
-fn two_bytes_a_sample_are_read() {
-    let wide = b"P6 # a comment\n1 1\n1000\n\x03\xe8\x01\xf4\x00\x00";
-    let linear = Screen {
-        exposure: 1.0,
-        transfer: Some(Transfer::Gamma(1.0)),
-        ..SCREEN
+fn the_brightest_level_does_not_count() {
+    let transfer = Transfer::Gamma(2.2);
+    let params = DecodeParams {
+        exposure: 4.0,
+        ..DecodeParams::default()
     };
-    let decoded = decode_picture(wide, &linear).unwrap();
-    assert_eq!(decoded.image.pixels, [[1.0, 0.5, 0.0]]);
-}
-
-#[test]
-fn damaged_pictures_are_told_from_good_ones() {
-    let message = |bytes: &[u8]| decode_picture(bytes, &SCREEN).unwrap_err().to_string();
-    assert!(message(b"GIF89a").contains("none of the formats"));
-    assert!(message(b"P6 2 1 255\nabc").contains("6 samples or bytes should follow"));
-    assert!(message(b"P3 1 1 255\n0 0 256").contains("brighter"));
-    assert!(message(b"Pf 1 1 1\n").contains("no three channels"));
-    assert!(message(b"PF 1 1 0\n").contains("scale"));
-    assert!(message(b"P6 1 x 255\n").contains("width and height"));
-    assert!(decode_regions(b"no picture").is_err());
+    let shown = ToneMap::clamped(4.0, transfer).apply(&ramp());
+    let bytes = encode(&shown, PictureFormat::Png(transfer), &[]);
+    let decoded = decode_picture(&bytes, &params).unwrap();
+    let unclamped = ramp().pixels.iter().filter(|pixel| pixel[2] < 0.25).count();
+    let (name, errors) = &compare_pictures(&ramp(), &decoded, None, 4.0).unwrap()[0];
+    assert_eq!((name.as_str(), errors.values), ("all", 3 * unclamped));
 }
 
 #[test]
@@ -206,38 +115,6 @@ fn differences_are_red_above_and_blue_below() {
         shown.picture.bytes[..9],
         [255, 0, 0, 128, 128, 255, 255, 255, 255]
     );
-}
-
-proptest! {
-    /// Nothing that begins like a picture makes the reader panic.
-    #[test]
-    fn any_bytes_are_read_or_refused(
-        magic in prop::sample::select(vec![
-            "P3 ", "P6 ", "PF ", "P6 2 2 255\n", "PF 1 1 -1\n", "P3 1 1 9 ",
-            "#?RADIANCE\n", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 9 +X 9\n",
-            "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n",
-        ]),
-        rest in prop::collection::vec(any::<u8>(), 0..64),
-    ) {
-        let _ = decode_picture(&[magic.as_bytes(), &rest].concat(), &SCREEN);
-    }
-
-    /// Nor does a good picture with some bytes changed.
-    #[test]
-    fn damage_is_survived(damage in prop::collection::vec((any::<u16>(), any::<u8>()), 1..4)) {
-        let picture = ToneMap::clamped(1.0, Transfer::Gamma(2.0)).apply(&ramp());
-        let mut png = encode(&picture, PictureFormat::Png(Transfer::Gamma(2.0)), &[]);
-        let mut hdr = encode_hdr(&ramp(), &[("Unit", "W/m^2/sr".to_owned())]);
-        for (at, byte) in damage {
-            for bytes in [&mut png, &mut hdr] {
-                let length = bytes.len();
-                bytes[usize::from(at) % length] = byte;
-            }
-        }
-        let _ = decode_picture(&png, &SCREEN);
-        let _ = decode_picture(&hdr, &SCREEN);
-        let _ = decode_regions(&png);
-    }
 }
 
 /// Most pixels are equal, few are not; the scale may be zero, and sums do not overflow.

@@ -3,9 +3,8 @@
 //! A line is as bright in a pixel as a tent around it says that is one pixel wide to either side, so
 //! lines are smooth, and equally wide everywhere.
 
-use crate::image::Values;
-use crate::picture::Picture;
 use radiosity_geometry::{Backs, Camera, DVec2, DVec3, Mesh, Offsets, Screen, Seen};
+use radiosity_image::{Rgb8Image, Values};
 use radiosity_simd::{Kernel, LANES, Simd, dispatch};
 use rayon::prelude::*;
 
@@ -56,15 +55,15 @@ impl Outlines {
     }
 
     /// Draws the borders of patches.
-    pub fn draw(&self, picture: &mut Picture, color: [u8; 3], strength: f32) {
+    pub fn draw(&self, picture: &mut Rgb8Image, color: [u8; 3], strength: f32) {
         for (index, share) in self.patches.iter().enumerate() {
-            picture.mix(index, color, strength * share);
+            picture.blend(index, color, strength * share);
         }
     }
 
     /// Draws the lines along which numbers have some values, light or dark as the picture is not. There are
     /// none across edges of surfaces.
-    pub fn draw_isolines(&self, picture: &mut Picture, values: &Values, levels: &[f64]) {
+    pub fn draw_isolines(&self, picture: &mut Rgb8Image, values: &Values, levels: &[f64]) {
         let last = [values.width - 1, values.height - 1];
         let is_inner = |x: u32, y: u32| !self.edges[(y * self.width + x) as usize];
         for y in 0..values.height {
@@ -87,7 +86,7 @@ impl Outlines {
                     let nearest = distances.fold(f32::INFINITY, f32::min);
                     let share = (1.0 - nearest).max(0.0);
                     let index = (y * self.width + x) as usize;
-                    picture.mix(index, picture.contrast(index), share);
+                    picture.blend(index, picture.contrast(index), share);
                 }
             }
         }

@@ -2,13 +2,13 @@
 
 use crate::Rgb;
 use crate::fields::Fields;
-use crate::image::Image;
 use crate::params::ImageParams;
 use crate::resample::filtered;
 use crate::shade::Shader;
 use crate::spots::{Spot, Spots};
 use crate::view::View;
 use radiosity_geometry::{Camera, Mesh};
+use radiosity_image::Image;
 use rayon::prelude::*;
 
 /// How the light on patches is shown.

@@ -3,9 +3,9 @@
 //! Samples that are shared by neighbouring pixels leave no noise of their own, which random places in a
 //! filter with negative lobes do (Mitchell & Netravali 1988, section 3).
 
-use crate::image::Image;
 use crate::{Rgb, add_scaled};
 use radiosity_geometry::PixelFilter;
+use radiosity_image::Image;
 use rayon::prelude::*;
 
 /// An image of pixels, from one of `subpixels x subpixels` parts of each. At the border, what lies

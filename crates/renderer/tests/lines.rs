@@ -1,7 +1,8 @@
 //! Lines over pictures lie where patches end and where numbers are equal.
 
 use radiosity_geometry::{Backs, Camera, DVec3, Divisions, Mesh, Shape, Surface, subdivide};
-use radiosity_renderer::{Outlines, Picture, Values};
+use radiosity_image::{Rgb8Image, Values};
+use radiosity_renderer::Outlines;
 
 const SIZE: u32 = 40;
 
@@ -28,8 +29,8 @@ fn quad(half: f64, z: f64) -> Shape {
 }
 
 /// The brightness of a row of pixels under white lines.
-fn row(draw: impl FnOnce(&mut Picture)) -> Vec<u8> {
-    let mut picture = Picture::plain(SIZE, SIZE, [0; 3]);
+fn row(draw: impl FnOnce(&mut Rgb8Image)) -> Vec<u8> {
+    let mut picture = Rgb8Image::plain(SIZE, SIZE, [0; 3]);
     draw(&mut picture);
     let start = (3 * SIZE * 22) as usize;
     picture.bytes[start..]

@@ -3,7 +3,8 @@
 #![allow(dead_code, reason = "each test file uses some of it")]
 
 use radiosity_geometry::{Camera, DVec3, Divisions, Mesh, Shape, Surface, subdivide};
-use radiosity_renderer::{Fields, Image, ImageParams, Renderer, Shading, ShadingParams};
+use radiosity_image::Image;
+use radiosity_renderer::{Fields, ImageParams, Renderer, Shading, ShadingParams};
 
 pub(crate) fn cut(shapes: Vec<Shape>, divisions: u32) -> Mesh {
     let surface = |shape| Surface {

@@ -1,8 +1,7 @@
-//! Numbers as colours: which number has which, and the legend that says so.
+//! Numbers as colours: which number has which.
 
 use crate::image::{Values, percentile};
-use crate::lettering::{Align, INK, LINE, PAPER, letter, width_of};
-use crate::picture::Picture;
+use crate::rgb8_image::Rgb8Image;
 use colorous::VIRIDIS;
 
 /// Which numbers colours stand for: from dark blue to yellow, in steps that look alike, also to those
@@ -55,7 +54,7 @@ impl ColorScale {
     }
 
     /// Where on the scale a number lies, from 0 to 1; nothing at all lies nowhere.
-    fn position(&self, value: f64) -> Option<f64> {
+    pub(crate) fn position(&self, value: f64) -> Option<f64> {
         if value.is_nan() || value <= 0.0 {
             return None;
         }
@@ -68,8 +67,12 @@ impl ColorScale {
     }
 
     fn color(&self, value: f64) -> [u8; 3] {
-        let position = self.position(value);
-        position.map_or(NOTHING, |at| VIRIDIS.eval_continuous(at).into_array())
+        self.position(value).map_or(NOTHING, ColorScale::color_at)
+    }
+
+    /// The colour at a position from 0 to 1.
+    pub(crate) fn color_at(position: f64) -> [u8; 3] {
+        VIRIDIS.eval_continuous(position).into_array()
     }
 
     /// Round numbers on the scale.
@@ -92,78 +95,13 @@ impl ColorScale {
     }
 
     /// The numbers as colours.
-    pub fn paint(&self, values: &Values) -> Picture {
+    pub fn paint(&self, values: &Values) -> Rgb8Image {
         let numbers = values.values.iter();
-        Picture {
+        Rgb8Image {
             width: values.width,
             height: values.height,
             bytes: numbers.flat_map(|v| self.color(f64::from(*v))).collect(),
         }
-    }
-}
-
-const MARGIN: u32 = 10;
-const BAR: u32 = 16;
-const TICK: u32 = 4;
-
-/// Adds a legend to the right of a picture: the quantity, its unit, and which numbers the colours
-/// stand for.
-pub fn with_legend(picture: &Picture, scale: &ColorScale, name: &str, unit: &str) -> Picture {
-    let ticks = scale.ticks();
-    let labels: Vec<String> = ticks.iter().map(|tick| number(*tick)).collect();
-    let beside_bar = BAR + TICK + MARGIN / 2;
-    let texts = labels.iter().map(|label| beside_bar + width_of(label));
-    let titles = [name, unit].map(width_of);
-    let widest = texts.chain(titles).max().unwrap_or(beside_bar);
-    let mut result = Picture::plain(picture.width + 2 * MARGIN + widest, picture.height, PAPER);
-    result.paste(picture, (0, 0));
-    let left = picture.width + MARGIN;
-    letter(&mut result, name, (left, MARGIN), INK, Align::Left);
-    letter(&mut result, unit, (left, MARGIN + LINE), INK, Align::Left);
-    let top = MARGIN + 3 * LINE;
-    let Some(height) = picture.height.checked_sub(top + MARGIN + LINE / 2 + 1) else {
-        return result;
-    };
-    for y in 0..=height {
-        let at = 1.0 - f64::from(y) / f64::from(height.max(1));
-        let color = VIRIDIS.eval_continuous(at).into_array();
-        result.paste(&Picture::plain(BAR, 1, color), (left, top + y));
-    }
-    let mut free_to = u32::MAX;
-    for (tick, label) in ticks.iter().zip(&labels) {
-        let at = scale.position(*tick).unwrap_or(0.0);
-        let y = top + ((1.0 - at) * f64::from(height)).round() as u32;
-        if y + LINE > free_to {
-            continue;
-        }
-        free_to = y;
-        result.paste(&Picture::plain(TICK, 1, INK), (left + BAR, y));
-        let beside = (left + beside_bar, y.saturating_sub(LINE / 2));
-        letter(&mut result, label, beside, INK, Align::Left);
-    }
-    result
-}
-
-/// With three digits, as short as it gets.
-fn number(x: f64) -> String {
-    if x == 0.0 {
-        return "0".to_owned();
-    }
-    let trimmed = |text: &str| {
-        let digits = text.trim_end_matches('0');
-        digits.trim_end_matches('.').to_owned()
-    };
-    if !(1e-3..1e6).contains(&x) {
-        let text = format!("{x:.2e}");
-        let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
-        return format!("{}e{power}", trimmed(digits));
-    }
-    let decimals = (2 - x.log10().floor() as i32).max(0) as usize;
-    let text = format!("{x:.decimals$}");
-    if text.contains('.') {
-        trimmed(&text)
-    } else {
-        text
     }
 }
 
@@ -206,26 +144,6 @@ mod tests {
         assert_eq!(linear(30.0), [0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0]);
         assert_eq!(linear(1500.0)[..3], [0.0, 250.0, 500.0]);
         assert_eq!(ColorScale::logarithmic(50.0).ticks(), [0.1, 1.0, 10.0]);
-        let labels = [0.0, 0.25, 5.0, 150.0, 12_345.0, 2.5e-4, 3e6].map(number);
-        assert_eq!(labels, ["0", "0.25", "5", "150", "12345", "2.5e-4", "3e6"]);
-    }
-
-    /// Labels say what ticks are, of any scale; and there are not many.
-    #[test]
-    fn labels_are_those_of_ticks() {
-        for power in -37..38 {
-            for digits in [1.0, 1.5, 2.0, 3.0, 7.3] {
-                let top = digits * 10f64.powi(power);
-                for scale in [ColorScale::linear(top), ColorScale::logarithmic(top)] {
-                    let ticks = scale.ticks();
-                    assert!((3..=11).contains(&ticks.len()), "{top} {ticks:?}");
-                    for tick in ticks {
-                        let label: f64 = number(tick).parse().unwrap();
-                        assert!((label - tick).abs() <= 1e-9 * tick, "{label} {tick}");
-                    }
-                }
-            }
-        }
     }
 
     /// Of a hundred numbers two are above 98, and one of them is a lamp.
@@ -234,26 +152,9 @@ mod tests {
         let mut numbers: Vec<f32> = (1..=98).map(|k| k as f32).collect();
         numbers.extend([99.0, 1e6, 0.0, f32::INFINITY]);
         assert_eq!(ColorScale::top_for(&values(numbers)), 100.0);
-        assert_eq!(number(ColorScale::top_for(&values(vec![0.3; 9]))), "0.3");
+        // 0.3 in single precision is a little more, and must not become 0.4.
+        let top = ColorScale::top_for(&values(vec![0.3; 9]));
+        assert!((top - 0.3).abs() < 1e-6, "{top}");
         assert_eq!(ColorScale::top_for(&values(vec![0.0; 9])), 1.0);
-    }
-
-    #[test]
-    fn a_legend_stands_beside_the_picture() {
-        let scale = ColorScale::linear(30.0);
-        let picture = scale.paint(&values(vec![15.0; 9]));
-        let tall = Picture {
-            width: 1,
-            height: 200,
-            bytes: picture.bytes[..3].repeat(200),
-        };
-        let with = with_legend(&tall, &scale, "irradiance", "W/m²");
-        assert!(with.width > 80 && with.height == 200);
-        let middle = with.bytes[3 * with.width as usize * 100..][..3].to_vec();
-        assert_eq!(middle, tall.bytes[..3]);
-        let is_lettered = with.bytes.chunks_exact(3).any(|pixel| *pixel == INK);
-        assert!(is_lettered);
-        // Too small for anything but the picture itself is no trouble.
-        assert_eq!(with_legend(&picture, &scale, "x", "y").height, 1);
     }
 }

@@ -11,10 +11,10 @@
 /// some 50 bytes a pixel, or 60 with a map of regions.
 const ALWAYS: u64 = 1920 * 1088;
 /// How many more pixels are read for each byte of the file.
-pub(crate) const PER_BYTE: u64 = 32;
+pub(super) const PER_BYTE: u64 = 32;
 /// The same of maps of regions, of which a pixel takes no more than the byte that it is: deflate
 /// packs no better than this.
-pub(crate) const PER_BYTE_OF_MAP: u64 = 1032;
+pub(super) const PER_BYTE_OF_MAP: u64 = 1032;
 /// No picture is larger, whatever its file.
 const MOST: u64 = 1 << 28;
 
@@ -31,7 +31,7 @@ pub struct SizeError {
 
 /// Refuses pictures without pixels, or with more than memory is taken for. `bytes` are those of the
 /// file.
-pub(crate) fn check_size(
+pub(super) fn check_size(
     (width, height): (u64, u64),
     bytes: &[u8],
     per_byte: u64,

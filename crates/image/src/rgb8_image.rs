@@ -1,8 +1,8 @@
-//! What a screen shows.
+//! Pictures of levels, as screens show them, and what is drawn on their pixels.
 
-/// An 8-bit picture, ready for display, row by row from the top left.
+/// A picture of 8-bit levels, ready for display, row by row from the top left.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Picture {
+pub struct Rgb8Image {
     /// Pixels across.
     pub width: u32,
     /// Pixels down.
@@ -11,9 +11,9 @@ pub struct Picture {
     pub bytes: Vec<u8>,
 }
 
-/// The same of 16 bits.
+/// A picture of 16-bit levels.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct DeepPicture {
+pub struct Rgb16Image {
     /// Pixels across.
     pub width: u32,
     /// Pixels down.
@@ -22,10 +22,10 @@ pub struct DeepPicture {
     pub levels: Vec<u16>,
 }
 
-impl Picture {
+impl Rgb8Image {
     /// A picture of one colour.
-    pub fn plain(width: u32, height: u32, color: [u8; 3]) -> Picture {
-        Picture {
+    pub fn plain(width: u32, height: u32, color: [u8; 3]) -> Rgb8Image {
+        Rgb8Image {
             width,
             height,
             bytes: color.repeat(width as usize * height as usize),
@@ -33,9 +33,9 @@ impl Picture {
     }
 
     /// The same levels with 16 bits.
-    pub fn deepened(&self) -> DeepPicture {
+    pub fn to_rgb16(&self) -> Rgb16Image {
         let bytes = self.bytes.iter();
-        DeepPicture {
+        Rgb16Image {
             width: self.width,
             height: self.height,
             levels: bytes.map(|byte| u16::from(*byte) * 257).collect(),
@@ -43,7 +43,7 @@ impl Picture {
     }
 
     /// Puts another picture onto this one; what of it lies outside is cut off.
-    pub(crate) fn paste(&mut self, other: &Picture, (left, top): (u32, u32)) {
+    pub(crate) fn paste(&mut self, other: &Rgb8Image, (left, top): (u32, u32)) {
         let width = 3 * other.width.min(self.width.saturating_sub(left)) as usize;
         let rows = other.height.min(self.height.saturating_sub(top));
         for y in 0..rows {
@@ -53,8 +53,8 @@ impl Picture {
         }
     }
 
-    /// What can be seen on a pixel: white, or black.
-    pub(crate) fn contrast(&self, index: usize) -> [u8; 3] {
+    /// The colour that stands out against a pixel: white, or black.
+    pub fn contrast(&self, index: usize) -> [u8; 3] {
         let channels = self.bytes[3 * index..3 * index + 3].iter();
         let sum: u32 = channels
             .zip([2, 6, 1])
@@ -63,11 +63,11 @@ impl Picture {
         if sum > 9 * 150 { [0; 3] } else { [255; 3] }
     }
 
-    /// Mixes a colour into a pixel.
-    pub(crate) fn mix(&mut self, index: usize, color: [u8; 3], share: f32) {
+    /// Blends a colour into a pixel: a share of 0 leaves it as it is, 1 replaces it.
+    pub fn blend(&mut self, index: usize, color: [u8; 3], share: f32) {
         for (byte, color) in self.bytes[3 * index..3 * index + 3].iter_mut().zip(color) {
-            let mixed = f32::from(*byte) + share * (f32::from(color) - f32::from(*byte));
-            *byte = (mixed + 0.5) as u8;
+            let blended = f32::from(*byte) + share * (f32::from(color) - f32::from(*byte));
+            *byte = (blended + 0.5) as u8;
         }
     }
 }

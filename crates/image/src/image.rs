@@ -75,7 +75,7 @@ impl Values {
     }
 
     /// The number at a pixel.
-    pub(crate) fn at(&self, x: u32, y: u32) -> f32 {
+    pub fn at(&self, x: u32, y: u32) -> f32 {
         self.values[y as usize * self.width as usize + x as usize]
     }
 }

@@ -1,6 +1,6 @@
 //! Maps that say which region of a picture a pixel belongs to.
 
-use crate::size::{PER_BYTE_OF_MAP, SizeError, check_size};
+use super::size::{PER_BYTE_OF_MAP, SizeError, check_size};
 use std::io::Cursor;
 
 /// The region of each pixel, row by row from the top left.

@@ -1,7 +1,7 @@
 //! Portable pixmaps and float maps.
 
 use crate::image::Image;
-use crate::picture::Picture;
+use crate::rgb8_image::Rgb8Image;
 use std::fmt::Write;
 
 /// The bytes of a portable float map (PF): linear numbers, 32-bit, little endian, rows from the
@@ -16,12 +16,12 @@ pub fn encode_pfm(image: &Image) -> Vec<u8> {
     bytes
 }
 
-fn header(magic: &str, picture: &Picture) -> String {
+fn header(magic: &str, picture: &Rgb8Image) -> String {
     format!("{magic}\n{} {}\n255\n", picture.width, picture.height)
 }
 
 /// One pixel a line: the format allows no line over 70 characters.
-pub(super) fn plain_ppm(picture: &Picture) -> Vec<u8> {
+pub(super) fn plain_ppm(picture: &Rgb8Image) -> Vec<u8> {
     let mut text = header("P3", picture);
     text.reserve(12 * picture.bytes.len() / 3);
     for pixel in picture.bytes.chunks_exact(3) {
@@ -30,6 +30,6 @@ pub(super) fn plain_ppm(picture: &Picture) -> Vec<u8> {
     text.into_bytes()
 }
 
-pub(super) fn ppm(picture: &Picture) -> Vec<u8> {
+pub(super) fn ppm(picture: &Rgb8Image) -> Vec<u8> {
     [header("P6", picture).as_bytes(), &picture.bytes].concat()
 }

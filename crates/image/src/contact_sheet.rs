@@ -1,7 +1,7 @@
 //! Many pictures on one sheet.
 
-use crate::lettering::{Align, INK, LINE, PAPER, letter};
-use crate::picture::Picture;
+use crate::rgb8_image::Rgb8Image;
+use crate::text::{Align, INK, LINE_HEIGHT, PAPER, draw_text};
 use image::RgbImage;
 use image::imageops::thumbnail;
 
@@ -17,9 +17,9 @@ pub fn thumbnail_width(pictures: usize) -> u32 {
     (SHEET / columns.max(1)).clamp(1, THUMBNAIL)
 }
 
-impl Picture {
+impl Rgb8Image {
     /// The same, not wider or higher than this.
-    pub fn thumbnail(&self, most: u32) -> Picture {
+    pub fn thumbnail(&self, most: u32) -> Rgb8Image {
         let longest = self.width.max(self.height);
         if longest <= most {
             return self.clone();
@@ -31,7 +31,7 @@ impl Picture {
         let image = RgbImage::from_raw(self.width, self.height, self.bytes.clone());
         let image = image.expect("the size is that of the picture");
         let small = thumbnail(&image, scaled(self.width), scaled(self.height));
-        Picture {
+        Rgb8Image {
             width: small.width(),
             height: small.height(),
             bytes: small.into_raw(),
@@ -40,22 +40,22 @@ impl Picture {
 }
 
 /// Pictures side by side, in rows about as many as there are columns, each above its name.
-pub fn contact_sheet(pictures: &[(String, Picture)]) -> Picture {
+pub fn contact_sheet(pictures: &[(String, Rgb8Image)]) -> Rgb8Image {
     let count = pictures.len() as u32;
     let columns = f64::from(count).sqrt().ceil() as u32;
     let rows = count.div_ceil(columns.max(1));
-    let largest = |size: fn(&Picture) -> u32| {
+    let largest = |size: fn(&Rgb8Image) -> u32| {
         let sizes = pictures.iter().map(|(_, picture)| size(picture));
         sizes.max().unwrap_or(0)
     };
     let width = largest(|picture| picture.width) + MARGIN;
-    let height = largest(|picture| picture.height) + LINE + MARGIN;
-    let mut sheet = Picture::plain(columns * width + MARGIN, rows * height + MARGIN, PAPER);
+    let height = largest(|picture| picture.height) + LINE_HEIGHT + MARGIN;
+    let mut sheet = Rgb8Image::plain(columns * width + MARGIN, rows * height + MARGIN, PAPER);
     for ((name, picture), k) in pictures.iter().zip(0..) {
         let place = (MARGIN + k % columns * width, MARGIN + k / columns * height);
         sheet.paste(picture, place);
         let below = (place.0 + picture.width / 2, place.1 + picture.height + 2);
-        letter(&mut sheet, name, below, INK, Align::Center);
+        draw_text(&mut sheet, name, below, INK, Align::Center);
     }
     sheet
 }
@@ -66,8 +66,8 @@ mod tests {
 
     #[test]
     fn every_picture_has_its_place() {
-        let picture = |level: u8| Picture::plain(40, 30, [level; 3]);
-        let pictures: Vec<(String, Picture)> = (1..=5)
+        let picture = |level: u8| Rgb8Image::plain(40, 30, [level; 3]);
+        let pictures: Vec<(String, Rgb8Image)> = (1..=5)
             .map(|k| (format!("p{k}"), picture(40 * k)))
             .collect();
         let sheet = contact_sheet(&pictures);
@@ -77,7 +77,7 @@ mod tests {
         assert_eq!(at(12 + 52 + 20, 12 + 57 + 15), 200);
         assert_eq!(at(12 + 104 + 20, 12 + 57 + 15), PAPER[0]);
         assert_eq!(contact_sheet(&[]).bytes.len(), 12 * 12 * 3);
-        let small = Picture::plain(1280, 720, [7, 8, 9]).thumbnail(320);
+        let small = Rgb8Image::plain(1280, 720, [7, 8, 9]).thumbnail(320);
         assert_eq!((small.width, small.height), (320, 180));
         assert_eq!(small.bytes[..3], [7, 8, 9]);
         assert_eq!(

@@ -1,15 +1,15 @@
 //! The portable formats: float maps (PF) and pixmaps (P3, P6), as the Netpbm manual and
 //! Debevec's PFM description define them.
 
-use crate::decode::DecodeError;
-use crate::size::{PER_BYTE, check_size};
-use radiosity_renderer::Image;
+use super::DecodeError;
+use super::size::{PER_BYTE, check_size};
+use crate::image::Image;
 
 const FLOAT_MAP: &str = "PFM";
 const PIXMAP: &str = "PPM";
 
 /// A float map of three channels, of either byte order; rows come from the bottom up.
-pub(crate) fn float_map(bytes: &[u8]) -> Result<Image, DecodeError> {
+pub(super) fn float_map(bytes: &[u8]) -> Result<Image, DecodeError> {
     let broken = |problem: &str| broken(FLOAT_MAP, problem);
     let mut header = Header::new(bytes);
     if header.token() != Some("PF") {
@@ -47,7 +47,7 @@ pub(crate) fn float_map(bytes: &[u8]) -> Result<Image, DecodeError> {
 
 /// A pixmap, of text (P3) or of bytes (P6, two bytes a sample above 255 levels), with the radiance of
 /// levels between 0 and 1.
-pub(crate) fn pixmap(bytes: &[u8], radiance: impl Fn(f64) -> f32) -> Result<Image, DecodeError> {
+pub(super) fn pixmap(bytes: &[u8], radiance: impl Fn(f64) -> f32) -> Result<Image, DecodeError> {
     let broken = |problem: &str| broken(PIXMAP, problem);
     let mut header = Header::new(bytes);
     let plain = header.token() == Some("P3");

@@ -1,6 +1,6 @@
 //! Text on pictures.
 
-use crate::picture::Picture;
+use crate::rgb8_image::Rgb8Image;
 use embedded_graphics::mono_font::iso_8859_1::FONT_7X13;
 use embedded_graphics::mono_font::{MonoFont, MonoTextStyle};
 use embedded_graphics::pixelcolor::Rgb888;
@@ -14,7 +14,7 @@ const FONT: &MonoFont<'_> = &FONT_7X13;
 pub(crate) const PAPER: [u8; 3] = [24, 24, 24];
 pub(crate) const INK: [u8; 3] = [225, 225, 225];
 /// From one line to the next.
-pub(crate) const LINE: u32 = 15;
+pub(crate) const LINE_HEIGHT: u32 = 15;
 
 /// Where a text stands, as seen from its place.
 #[derive(Clone, Copy)]
@@ -26,13 +26,13 @@ pub(crate) enum Align {
 }
 
 /// How wide a text is, in pixels.
-pub(crate) fn width_of(text: &str) -> u32 {
+pub(crate) fn text_width(text: &str) -> u32 {
     text.chars().count() as u32 * (FONT.character_size.width + FONT.character_spacing)
 }
 
 /// Writes a line whose upper end is at a pixel.
-pub(crate) fn letter(
-    picture: &mut Picture,
+pub(crate) fn draw_text(
+    picture: &mut Rgb8Image,
     text: &str,
     (x, y): (u32, u32),
     [r, g, b]: [u8; 3],
@@ -52,7 +52,7 @@ pub(crate) fn letter(
 }
 
 /// Where letters are drawn.
-struct Canvas<'a>(&'a mut Picture);
+struct Canvas<'a>(&'a mut Rgb8Image);
 
 impl Dimensions for Canvas<'_> {
     fn bounding_box(&self) -> Rectangle {

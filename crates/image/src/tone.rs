@@ -2,13 +2,14 @@
 //! screen's own curve, and levels.
 
 mod curve;
+mod dither;
 mod transfer;
 
 use crate::Rgb;
 use crate::image::{Image, percentile};
-use crate::picture::{DeepPicture, Picture};
-use crate::samples::mix;
+use crate::rgb8_image::{Rgb8Image, Rgb16Image};
 pub use curve::Curve;
+use dither::noise;
 use rayon::prelude::*;
 pub use transfer::Transfer;
 
@@ -78,7 +79,7 @@ impl ToneMap {
     }
 
     /// Makes an 8-bit picture of an image.
-    pub fn apply(&self, image: &Image) -> Picture {
+    pub fn apply(&self, image: &Image) -> Rgb8Image {
         let quantizer = self.transfer.quantizer();
         let mut bytes = vec![0; 3 * image.pixels.len()];
         self.for_each_row(image, &mut bytes, |brightness, noise| match noise {
@@ -88,7 +89,7 @@ impl ToneMap {
                 level.floor().clamp(0.0, 255.0) as u8
             }
         });
-        Picture {
+        Rgb8Image {
             width: image.width,
             height: image.height,
             bytes,
@@ -96,13 +97,13 @@ impl ToneMap {
     }
 
     /// Makes a 16-bit picture of an image.
-    pub fn apply_deep(&self, image: &Image) -> DeepPicture {
+    pub fn apply16(&self, image: &Image) -> Rgb16Image {
         let mut levels = vec![0; 3 * image.pixels.len()];
         self.for_each_row(image, &mut levels, |brightness, noise| {
             let level = 65535.0 * self.transfer.encode(brightness) + noise.unwrap_or(0.5);
             level.floor().clamp(0.0, 65535.0) as u16
         });
-        DeepPicture {
+        Rgb16Image {
             width: image.width,
             height: image.height,
             levels,
@@ -137,12 +138,6 @@ impl ToneMap {
     }
 }
 
-/// Uniform in [0, 1), and as good as independent from pixel to pixel.
-fn noise([x, y, c]: [u32; 3]) -> f32 {
-    let hash = mix(mix(u64::from(y) << 32 | u64::from(x)) ^ u64::from(c));
-    (hash >> 40) as f32 / (1 << 24) as f32
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -161,7 +156,7 @@ mod tests {
         let picture = course.apply(&image(vec![[0.0, 0.25, 0.125], [-1.0, 7.0, f32::NAN]]));
         // 0.5^(1/2.2) = 0.72974; not a number is shown black.
         assert_eq!(picture.bytes, [0, 255, 186, 0, 255, 0]);
-        let deep = course.apply_deep(&image(vec![[0.0, 0.25, 0.125], [-1.0, 7.0, f32::NAN]]));
+        let deep = course.apply16(&image(vec![[0.0, 0.25, 0.125], [-1.0, 7.0, f32::NAN]]));
         assert_eq!(deep.levels, [0, 65535, 47824, 0, 65535, 0]);
     }
 

@@ -8,7 +8,7 @@ mod hdr;
 mod openexr;
 mod portable;
 
-use crate::picture::{DeepPicture, Picture};
+use crate::rgb8_image::{Rgb8Image, Rgb16Image};
 use crate::tone::Transfer;
 pub use hdr::encode_hdr;
 #[cfg(feature = "openexr")]
@@ -31,7 +31,7 @@ pub enum PictureFormat {
 }
 
 /// The bytes of a file that holds the picture.
-pub fn encode(picture: &Picture, format: PictureFormat, metadata: &Metadata<'_>) -> Vec<u8> {
+pub fn encode(picture: &Rgb8Image, format: PictureFormat, metadata: &Metadata<'_>) -> Vec<u8> {
     match format {
         PictureFormat::PlainPpm => plain_ppm(picture),
         PictureFormat::Ppm => ppm(picture),
@@ -44,11 +44,7 @@ pub fn encode(picture: &Picture, format: PictureFormat, metadata: &Metadata<'_>)
 }
 
 /// The bytes of a PNG of 16 bits, which records the curve that the picture was made for.
-pub fn encode_deep_png(
-    picture: &DeepPicture,
-    transfer: Transfer,
-    metadata: &Metadata<'_>,
-) -> Vec<u8> {
+pub fn encode_png16(picture: &Rgb16Image, transfer: Transfer, metadata: &Metadata<'_>) -> Vec<u8> {
     let levels = picture.levels.iter();
     let data: Vec<u8> = levels.flat_map(|level| level.to_be_bytes()).collect();
     let size = (picture.width, picture.height);
@@ -89,8 +85,8 @@ mod tests {
     use super::*;
     use crate::image::Image;
 
-    fn sample() -> Picture {
-        Picture {
+    fn sample() -> Rgb8Image {
+        Rgb8Image {
             width: 2,
             height: 1,
             bytes: vec![0, 1, 2, 253, 254, 255],
@@ -142,12 +138,12 @@ mod tests {
 
     #[test]
     fn deep_png_holds_every_level_and_says_that_it_is_srgb() {
-        let picture = DeepPicture {
+        let picture = Rgb16Image {
             width: 1,
             height: 1,
             levels: vec![0, 258, 65535],
         };
-        let bytes = encode_deep_png(&picture, Transfer::Srgb, &[]);
+        let bytes = encode_png16(&picture, Transfer::Srgb, &[]);
         let decoder = png::Decoder::new(std::io::Cursor::new(bytes));
         let mut reader = decoder.read_info().unwrap();
         assert!(reader.info().srgb.is_some());
