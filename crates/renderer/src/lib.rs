@@ -10,23 +10,23 @@
 
 mod bicubic;
 mod direct;
-mod exposed;
 mod fields;
 mod gather;
 mod hanging;
+mod hidden_patches;
 mod interpolate;
-mod lines;
+mod irradiance_filter;
+mod overlay;
 mod params;
+mod pixel_filter;
+mod pixel_sampler;
 mod render;
-mod resample;
 mod samples;
 mod shade;
-mod spots;
 mod vertex;
-mod view;
 
 pub use fields::Fields;
-pub use lines::Outlines;
+pub use overlay::Outlines;
 pub use params::ImageParams;
 pub use render::{Renderer, Shading, ShadingParams};
 

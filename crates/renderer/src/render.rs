@@ -2,11 +2,11 @@
 
 use crate::Rgb;
 use crate::fields::Fields;
+use crate::irradiance_filter::{Fragment, IrradianceFilter};
 use crate::params::ImageParams;
-use crate::resample::filtered;
+use crate::pixel_filter::filtered;
+use crate::pixel_sampler::PixelSampler;
 use crate::shade::Shader;
-use crate::spots::{Spot, Spots};
-use crate::view::View;
 use radiosity_geometry::{Camera, Mesh};
 use radiosity_image::Image;
 use rayon::prelude::*;
@@ -89,19 +89,19 @@ impl<'a> Renderer<'a> {
                 .map(|parts| filtered(parts, params.subpixels, params.filter));
             return images.collect();
         }
-        let view = View::new(self.mesh, &self.shader, camera, params);
+        let sampler = PixelSampler::new(self.mesh, &self.shader, camera, params);
         let (width, height) = (params.width as usize, params.height as usize);
         let count = self.shader.shadings().len();
         let mut pixels = vec![[0.0; 3]; width * height * count];
         let rows = pixels.par_chunks_mut((width * count).max(1)).enumerate();
         let take = |(y, row): (usize, &mut [Rgb])| {
-            let spots = view.take_row(y as u32, row);
+            let fragments = sampler.sample_row(y as u32, row);
             progress(1);
-            spots
+            fragments
         };
-        let spots: Vec<Vec<Spot>> = rows.map(take).collect();
+        let fragments: Vec<Vec<Fragment>> = rows.map(take).collect();
         if let Some(index) = self.shader.index_of(Shading::Gathered) {
-            self.add_gathered(&spots, &mut pixels, (width, index));
+            self.add_gathered(&fragments, &mut pixels, (width, index));
         }
         let image = |k: usize| Image {
             width: params.width,
@@ -112,14 +112,19 @@ impl<'a> Renderer<'a> {
     }
 
     /// Adds what was gathered to every pixel of one of the shadings.
-    fn add_gathered(&self, rows: &[Vec<Spot>], pixels: &mut [Rgb], (width, index): (usize, usize)) {
+    fn add_gathered(
+        &self,
+        rows: &[Vec<Fragment>],
+        pixels: &mut [Rgb],
+        (width, index): (usize, usize),
+    ) {
         let count = self.shader.shadings().len();
-        let spots = Spots::new(self.mesh, rows);
+        let filter = IrradianceFilter::new(self.mesh, rows);
         let row = |(y, row): (usize, &mut [Rgb])| {
-            for spot in &rows[y] {
-                let irradiance = spots.irradiance(y, spot);
-                let pixel = &mut row[spot.x as usize * count + index];
-                (0..3).for_each(|c| pixel[c] += spot.gain[c] * irradiance[c]);
+            for fragment in &rows[y] {
+                let irradiance = filter.irradiance(y, fragment);
+                let pixel = &mut row[fragment.x as usize * count + index];
+                (0..3).for_each(|c| pixel[c] += fragment.gain[c] * irradiance[c]);
             }
         };
         let chunks = pixels.par_chunks_mut((width * count).max(1));

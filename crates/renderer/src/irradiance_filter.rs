@@ -1,17 +1,17 @@
-//! Gathered light at spots, the parts of faces that pixels show, each put right by its neighbours.
+//! Gathered light at fragments, the parts of faces that pixels show, each smoothed over its neighbours.
 //!
-//! What few directions tell of a spot is noisy, but light that is reflected more often changes slowly:
+//! What few directions tell of a fragment is noisy, but light that is reflected more often changes slowly:
 //! over a distance as far as other surfaces are (Ward & Heckbert, "Irradiance Gradients", 1992).
-//! So a plane is fitted to the irradiances of spots that are nearer than a part of that, by weighted
-//! least squares, and its value at the spot is taken: no slope is lost, and no edge crossed.
+//! So a plane is fitted to the irradiances of fragments that are nearer than a part of that, by weighted
+//! least squares, and its value at the fragment is taken: no slope is lost, and no edge crossed.
 
 use crate::{Rgb, add_scaled};
 use radiosity_geometry::{DVec3, FaceId, Mesh, SurfaceId};
 use radiosity_simd::LANES;
 
-/// Samples of a pixel that show one face.
+/// The part of a face that a pixel shows: its samples there.
 #[derive(Clone, Debug)]
-pub(crate) struct Spot {
+pub(crate) struct Fragment {
     /// The column of the pixel.
     pub(crate) x: u32,
     pub(crate) face: FaceId,
@@ -32,16 +32,16 @@ pub(crate) struct Gathered {
     pub(crate) inverse: [f32; LANES],
 }
 
-/// Pixels to either side whose spots count.
+/// Pixels to either side whose fragments count.
 const REACH: u32 = 4;
 /// And how far away they may be, in harmonic mean distances to what is seen.
 const NEAR: f64 = 0.3;
 /// The cosine between normals below which faces of a mesh do not share their light.
 const ALIKE: f64 = 0.95;
 
-impl Spot {
-    pub(crate) fn new(face: FaceId) -> Spot {
-        Spot {
+impl Fragment {
+    pub(crate) fn new(face: FaceId) -> Fragment {
+        Fragment {
             x: 0,
             face,
             gain: [0.0; 3],
@@ -70,10 +70,10 @@ impl Spot {
     }
 }
 
-/// Spots, row by row, each from left to right.
-pub(crate) struct Spots<'a> {
+/// Smooths what was gathered at the fragments of rows of pixels, each from left to right.
+pub(crate) struct IrradianceFilter<'a> {
     mesh: &'a Mesh,
-    rows: &'a [Vec<Spot>],
+    rows: &'a [Vec<Fragment>],
 }
 
 /// Sums of a weighted least squares fit of `a + b u + c v`.
@@ -85,22 +85,22 @@ struct Fit {
     values: [[f64; 3]; 3],
 }
 
-impl<'a> Spots<'a> {
-    pub(crate) fn new(mesh: &'a Mesh, rows: &'a [Vec<Spot>]) -> Spots<'a> {
-        Spots { mesh, rows }
+impl<'a> IrradianceFilter<'a> {
+    pub(crate) fn new(mesh: &'a Mesh, rows: &'a [Vec<Fragment>]) -> IrradianceFilter<'a> {
+        IrradianceFilter { mesh, rows }
     }
 
-    /// The irradiance at a spot of a row, as its neighbours see it.
-    pub(crate) fn irradiance(&self, y: usize, spot: &Spot) -> Rgb {
-        let (center, normal) = (spot.center(), self.normal(spot));
+    /// The irradiance at a fragment of a row, as its neighbours see it.
+    pub(crate) fn irradiance(&self, y: usize, fragment: &Fragment) -> Rgb {
+        let (center, normal) = (fragment.center(), self.normal(fragment));
         let (tangent, bitangent) = normal.any_orthonormal_pair();
-        let radius = NEAR * f64::from(spot.count / spot.inverse.max(f32::MIN_POSITIVE));
+        let radius = NEAR * f64::from(fragment.count / fragment.inverse.max(f32::MIN_POSITIVE));
         let mut fit = Fit::default();
-        for other in self.around(y, spot) {
+        for other in self.around(y, fragment) {
             let offset = other.center() - center;
             let closeness = 1.0 - offset.length_squared() / (radius * radius);
-            let is_itself = std::ptr::eq(other, spot);
-            if is_itself || closeness > 0.0 && self.are_alike(other, spot, normal) {
+            let is_itself = std::ptr::eq(other, fragment);
+            if is_itself || closeness > 0.0 && self.are_alike(other, fragment, normal) {
                 let kernel = if is_itself {
                     1.0
                 } else {
@@ -113,11 +113,11 @@ impl<'a> Spots<'a> {
         fit.at_center()
     }
 
-    /// The spots of pixels nearby.
-    fn around(&self, y: usize, spot: &Spot) -> impl Iterator<Item = &'a Spot> {
+    /// The fragments of pixels nearby.
+    fn around(&self, y: usize, fragment: &Fragment) -> impl Iterator<Item = &'a Fragment> {
         let reach = REACH as usize;
         let rows = y.saturating_sub(reach)..(y + reach + 1).min(self.rows.len());
-        let (left, right) = (spot.x.saturating_sub(REACH), spot.x + REACH);
+        let (left, right) = (fragment.x.saturating_sub(REACH), fragment.x + REACH);
         self.rows[rows].iter().flat_map(move |row| {
             let first = row.partition_point(|other| other.x < left);
             row[first..]
@@ -126,32 +126,33 @@ impl<'a> Spots<'a> {
         })
     }
 
-    /// Whether two spots lie on one smooth surface.
-    fn are_alike(&self, other: &Spot, spot: &Spot, normal: DVec3) -> bool {
-        other.face == spot.face
-            || self.surface(other) == self.surface(spot) && self.normal(other).dot(normal) >= ALIKE
+    /// Whether two fragments lie on one smooth surface.
+    fn are_alike(&self, other: &Fragment, fragment: &Fragment, normal: DVec3) -> bool {
+        other.face == fragment.face
+            || self.surface(other) == self.surface(fragment)
+                && self.normal(other).dot(normal) >= ALIKE
     }
 
-    fn normal(&self, spot: &Spot) -> DVec3 {
-        self.mesh.faces[spot.face.index()].normal
+    fn normal(&self, fragment: &Fragment) -> DVec3 {
+        self.mesh.faces[fragment.face.index()].normal
     }
 
-    fn surface(&self, spot: &Spot) -> SurfaceId {
-        self.mesh.faces[spot.face.index()].surface
+    fn surface(&self, fragment: &Fragment) -> SurfaceId {
+        self.mesh.faces[fragment.face.index()].surface
     }
 }
 
 impl Fit {
-    /// Adds a spot at a place of the plane, by its samples.
-    fn add(&mut self, kernel: f64, [u, v]: [f64; 2], spot: &Spot) {
-        let weight = kernel * f64::from(spot.count);
+    /// Adds a fragment at a place of the plane, by its samples.
+    fn add(&mut self, kernel: f64, [u, v]: [f64; 2], fragment: &Fragment) {
+        let weight = kernel * f64::from(fragment.count);
         let terms = [1.0, u, v, u * u, u * v, v * v];
         for (moment, term) in self.moments.iter_mut().zip(terms) {
             *moment += weight * term;
         }
         for (c, values) in self.values.iter_mut().enumerate() {
             // The mean over samples, times their number.
-            let value = kernel * f64::from(spot.irradiance[c]);
+            let value = kernel * f64::from(fragment.irradiance[c]);
             for (sum, term) in values.iter_mut().zip(terms) {
                 *sum += value * term;
             }
@@ -199,21 +200,21 @@ mod tests {
         subdivide(&[surface(0.0), surface(1.0)], Divisions::uniform(1)).unwrap()
     }
 
-    /// A spot of one sample in each of 10 x 10 pixels, whose irradiance is told by its place.
-    fn rows(inverse: f32, value: impl Fn(DVec3) -> f32) -> Vec<Vec<Spot>> {
-        let spot = |x: u32, y: u32| {
+    /// A fragment of one sample in each of 10 x 10 pixels, whose irradiance is told by its place.
+    fn rows(inverse: f32, value: impl Fn(DVec3) -> f32) -> Vec<Vec<Fragment>> {
+        let fragment = |x: u32, y: u32| {
             let at = DVec3::new(0.2 * f64::from(x) + 0.1, 0.1 * f64::from(y) + 0.05, 0.0);
-            let mut spot = Spot::new(FaceId(u32::from(x >= 5)));
+            let mut fragment = Fragment::new(FaceId(u32::from(x >= 5)));
             let gathered = Gathered {
                 irradiance: [[value(at); LANES]; 3],
                 inverse: [inverse; LANES],
             };
-            spot.add(3, at, &gathered, [1.0; 3]);
-            spot.x = x;
-            spot
+            fragment.add(3, at, &gathered, [1.0; 3]);
+            fragment.x = x;
+            fragment
         };
         (0..10)
-            .map(|y| (0..10).map(|x| spot(x, y)).collect())
+            .map(|y| (0..10).map(|x| fragment(x, y)).collect())
             .collect()
     }
 
@@ -226,11 +227,11 @@ mod tests {
             (7.0 + 2.0 * at.x - 3.0 * at.y + jump) as f32
         };
         let rows = rows(0.3, plane);
-        let spots = Spots::new(&mesh, &rows);
+        let filter = IrradianceFilter::new(&mesh, &rows);
         for (y, row) in rows.iter().enumerate() {
-            for spot in row {
-                let expected = plane(spot.center());
-                let found = spots.irradiance(y, spot)[1];
+            for fragment in row {
+                let expected = plane(fragment.center());
+                let found = filter.irradiance(y, fragment)[1];
                 assert!((found / expected - 1.0).abs() < 1e-5, "{found} {expected}");
             }
         }
@@ -244,29 +245,29 @@ mod tests {
         let noisy = |at: DVec3| 1.0 + ((1000.0 * at.x).round() * 0.37 + at.y * 91.7).sin() as f32;
         let off = |inverse: f32| {
             let rows = rows(inverse, noisy);
-            let spots = Spots::new(&mesh, &rows);
+            let filter = IrradianceFilter::new(&mesh, &rows);
             let inner = rows.iter().enumerate().skip(3).take(4);
-            let squares = inner.map(|(y, row)| (spots.irradiance(y, &row[2])[0] - 1.0).powi(2));
+            let squares = inner.map(|(y, row)| (filter.irradiance(y, &row[2])[0] - 1.0).powi(2));
             (squares.sum::<f32>() / 4.0).sqrt()
         };
         let rows = rows(100.0, noisy);
-        let spot = &rows[4][2];
+        let fragment = &rows[4][2];
         assert_eq!(
-            Spots::new(&mesh, &rows).irradiance(4, spot)[0],
-            noisy(spot.center())
+            IrradianceFilter::new(&mesh, &rows).irradiance(4, fragment)[0],
+            noisy(fragment.center())
         );
         assert!(off(0.3) < off(100.0) / 3.0, "{} {}", off(0.3), off(100.0));
     }
 
-    /// One spot alone has what was gathered there.
+    /// One fragment alone has what was gathered there.
     #[test]
-    fn a_lonely_spot_is_what_it_is() {
+    fn a_lonely_fragment_keeps_its_irradiance() {
         let mesh = squares();
         let mut rows = rows(0.0, |_| 2.5);
         rows.truncate(1);
         rows[0].truncate(1);
         assert_eq!(
-            Spots::new(&mesh, &rows).irradiance(0, &rows[0][0]),
+            IrradianceFilter::new(&mesh, &rows).irradiance(0, &rows[0][0]),
             [2.5; 3]
         );
     }

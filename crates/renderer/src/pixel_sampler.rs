@@ -1,18 +1,18 @@
-//! The pixels of a picture, row by row.
+//! Samples the pixels of an image, row by row.
 
 use crate::Rgb;
-use crate::interpolate::{Local, Places};
+use crate::interpolate::{PatchCoords, SurfacePoints};
+use crate::irradiance_filter::Fragment;
 use crate::params::ImageParams;
 use crate::render::Shading;
 use crate::samples::{SampleSet, SampleSets};
-use crate::shade::{Room, Shader};
-use crate::spots::Spot;
+use crate::shade::{Shader, Workspace};
 use radiosity_geometry::{Camera, DVec2, DVec3, Mesh, Offsets, Screen, Seen};
 use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
 use std::f32::consts::PI;
 
-/// What a camera sees, ready for its pixels.
-pub(crate) struct View<'a> {
+/// Samples the pixels of what a camera sees.
+pub(crate) struct PixelSampler<'a> {
     mesh: &'a Mesh,
     camera: &'a Camera,
     /// The directions of rays: [`Camera::film`].
@@ -24,8 +24,8 @@ pub(crate) struct View<'a> {
 }
 
 /// A row of pixels, each as often as there are shadings.
-struct Row<'a> {
-    view: &'a View<'a>,
+struct PixelRow<'a> {
+    sampler: &'a PixelSampler<'a>,
     y: u32,
     row: &'a mut [Rgb],
 }
@@ -52,29 +52,32 @@ struct Sums<F> {
 /// Samples that differ by less than this share of the brightest need no more.
 const DIFFERENCE: f32 = 0.05;
 
-impl Kernel for Row<'_> {
-    type Output = Vec<Spot>;
+impl Kernel for PixelRow<'_> {
+    type Output = Vec<Fragment>;
 
     #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> Vec<Spot> {
-        let (view, mut seen, mut room) = (self.view, Vec::new(), Room::default());
-        let count = view.shader.shadings().len();
+    fn run<S: Simd>(self, simd: S) -> Vec<Fragment> {
+        let sampler = self.sampler;
+        let (mut seen, mut workspace) = (Vec::new(), Workspace::default());
+        let count = sampler.shader.shadings().len();
         for (x, pixels) in self.row.chunks_exact_mut(count).enumerate() {
             let pixel = (x as u32, self.y);
             let mut sums = Sums {
                 radiosity: [[simd.splat_f32(0.0); 3]; Shading::COUNT],
                 range: [simd.splat_f32(f32::INFINITY), simd.splat_f32(0.0)],
             };
-            room.numbers.scramble = view.samples.scramble_of(pixel);
-            room.first_spot = room.spots.len();
+            workspace.numbers.scramble = sampler.samples.scramble_of(pixel);
+            workspace.first_fragment = workspace.fragments.len();
             let mut rounds = 0;
             let mut wants_more = true;
-            while wants_more && rounds < view.most_rounds {
-                let samples = view.samples.of_pixel(pixel.0, pixel.1, rounds);
-                let is_mixed = view.screen.look(simd, pixel, &samples.offsets, &mut seen);
+            while wants_more && rounds < sampler.most_rounds {
+                let samples = sampler.samples.of_pixel(pixel.0, pixel.1, rounds);
+                let is_mixed = sampler
+                    .screen
+                    .look(simd, pixel, &samples.offsets, &mut seen);
                 let count = (LANES * samples.offsets.len()) as u32;
-                room.numbers.first = rounds * count;
-                view.add(simd, (pixel, samples), &seen, &mut room, &mut sums);
+                workspace.numbers.first = rounds * count;
+                sampler.add(simd, (pixel, samples), &seen, &mut workspace, &mut sums);
                 rounds += 1;
                 // What shows two faces may have missed one of them once.
                 wants_more = is_mixed && (rounds == 1 || sums.differ());
@@ -83,12 +86,12 @@ impl Kernel for Row<'_> {
             for (pixel, sums) in pixels.iter_mut().zip(&sums.radiosity) {
                 *pixel = [0, 1, 2].map(|c| scale * total(sums[c]));
             }
-            for spot in &mut room.spots[room.first_spot..] {
-                spot.x = pixel.0;
-                spot.gain = spot.gain.map(|gain| scale * gain);
+            for fragment in &mut workspace.fragments[workspace.first_fragment..] {
+                fragment.x = pixel.0;
+                fragment.gain = fragment.gain.map(|gain| scale * gain);
             }
         }
-        room.spots
+        workspace.fragments
     }
 }
 
@@ -103,16 +106,16 @@ impl<F: Float<f32>> Sums<F> {
     }
 }
 
-impl<'a> View<'a> {
+impl<'a> PixelSampler<'a> {
     pub(crate) fn new(
         mesh: &'a Mesh,
         shader: &'a Shader<'a>,
         camera: &'a Camera,
         params: &ImageParams,
-    ) -> View<'a> {
+    ) -> PixelSampler<'a> {
         let film = params.film();
         let size = (film.width, film.height);
-        View {
+        PixelSampler {
             film: camera.film(film.width, film.height),
             screen: Screen::new(mesh, (camera, params.backs), size, film.reach()),
             samples: SampleSets::new(&film, params.samples, params.seed),
@@ -123,9 +126,14 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Takes a row of pixels, each as often as there are shadings, but for what is gathered at spots.
-    pub(crate) fn take_row(&self, y: u32, row: &mut [Rgb]) -> Vec<Spot> {
-        dispatch(Row { view: self, y, row })
+    /// Samples a row of pixels, each as often as there are shadings. What is gathered at its fragments is
+    /// returned, and still to be added.
+    pub(crate) fn sample_row(&self, y: u32, row: &mut [Rgb]) -> Vec<Fragment> {
+        dispatch(PixelRow {
+            sampler: self,
+            y,
+            row,
+        })
     }
 
     /// Adds the samples of a pixel that show faces, by each shading.
@@ -135,26 +143,27 @@ impl<'a> View<'a> {
         simd: S,
         (pixel, samples): ((u32, u32), &SampleSet),
         seen: &[Seen],
-        room: &mut Room,
+        workspace: &mut Workspace,
         sums: &mut Sums<S::F32>,
     ) {
         let zero = simd.splat_f32(0.0);
         let mut dark = !0;
-        let first = room.numbers.first;
+        let first = workspace.numbers.first;
         for seen in seen {
             let group = seen.group as usize;
-            room.numbers.first = first + (LANES * group) as u32;
-            room.numbers.weights = samples.weights[group];
-            let Some(places) = self.places(simd, pixel, *seen, &samples.offsets[group]) else {
+            workspace.numbers.first = first + (LANES * group) as u32;
+            workspace.numbers.weights = samples.weights[group];
+            let Some(points) = self.surface_points(simd, pixel, *seen, &samples.offsets[group])
+            else {
                 continue;
             };
             dark &= !seen.lanes;
-            let place = (&places, &Local::in_patches(self.mesh, &places));
+            let points = (&points, &PatchCoords::in_patches(self.mesh, &points));
             let weights = simd.f32(&samples.weights[group]).select(seen.lanes, zero);
             let mut brightness = zero;
             let shadings = self.shader.shadings().iter();
             for (sums, shading) in sums.radiosity.iter_mut().zip(shadings) {
-                let radiosity = self.shader.shade(simd, *shading, place, room);
+                let radiosity = self.shader.shade(simd, *shading, points, workspace);
                 for c in 0..3 {
                     sums[c] = sums[c] + radiosity[c] * weights;
                 }
@@ -173,13 +182,13 @@ impl<'a> View<'a> {
     /// Where on a face the samples of a pixel lie that show it; nowhere if it shows its back, or has
     /// no patches.
     #[inline(always)]
-    fn places<S: Simd>(
+    fn surface_points<S: Simd>(
         &self,
         simd: S,
         (x, y): (u32, u32),
         seen: Seen,
         offsets: &Offsets,
-    ) -> Option<Places> {
+    ) -> Option<SurfacePoints> {
         let face = &self.screen.faces[seen.face as usize];
         let of_mesh = &self.mesh.faces[face.id.index()];
         if !face.front || of_mesh.is_bare() {
@@ -193,33 +202,33 @@ impl<'a> View<'a> {
         let (zero, one) = (simd.splat_f64(0.0), simd.splat_f64(1.0));
         let w = &face.inverse_depth;
         let depth = one / w.around(simd, w.at(corner), offset);
-        let mut points = [[0.0; LANES]; 3];
+        let mut in_space = [[0.0; LANES]; 3];
         let are_needed = face.coordinates.is_none() || self.shader.needs_points();
-        for (axis, points) in points.iter_mut().enumerate().filter(|_| are_needed) {
+        for (axis, in_space) in in_space.iter_mut().enumerate().filter(|_| are_needed) {
             let [origin, across, down] = self.film.map(|direction| direction[axis]);
             let known = origin + across * corner.x + down * corner.y;
             let along = simd.splat_f64(known)
                 + offset[0] * simd.splat_f64(across)
                 + offset[1] * simd.splat_f64(down);
-            *points = (simd.splat_f64(self.camera.position()[axis]) + along * depth).lanes();
+            *in_space = (simd.splat_f64(self.camera.position()[axis]) + along * depth).lanes();
         }
-        let mut at = [[0.0; LANES]; 2];
+        let mut on_face = [[0.0; LANES]; 2];
         if let Some(coordinates) = &face.coordinates {
-            for (at, linear) in at.iter_mut().zip(coordinates) {
+            for (on_face, linear) in on_face.iter_mut().zip(coordinates) {
                 let coordinate = linear.around(simd, linear.at(corner), offset) * depth;
-                *at = coordinate.max(zero).min(one).lanes();
+                *on_face = coordinate.max(zero).min(one).lanes();
             }
         } else {
             for lane in 0..LANES {
-                let point = DVec3::from_array(points.map(|axis| axis[lane]));
-                let on_face = of_mesh.coordinates(point);
-                (at[0][lane], at[1][lane]) = (on_face.x, on_face.y);
+                let point = DVec3::from_array(in_space.map(|axis| axis[lane]));
+                let place = of_mesh.coordinates(point);
+                (on_face[0][lane], on_face[1][lane]) = (place.x, place.y);
             }
         }
-        Some(Places {
+        Some(SurfacePoints {
             face: face.id,
-            at,
-            points,
+            on_face,
+            in_space,
             lanes: seen.lanes,
         })
     }

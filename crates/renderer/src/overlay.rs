@@ -29,7 +29,7 @@ impl Outlines {
         (camera, backs): (&Camera, Backs),
         (width, height): (u32, u32),
     ) -> Outlines {
-        let view = View {
+        let sampler = BorderSampler {
             mesh,
             camera,
             film: camera.film(width, height),
@@ -39,8 +39,8 @@ impl Outlines {
         let rows: Vec<Vec<(f32, bool)>> = (0..height)
             .into_par_iter()
             .map(|y| {
-                dispatch(Row {
-                    view: &view,
+                dispatch(BorderRow {
+                    sampler: &sampler,
                     y,
                     width,
                 })
@@ -104,7 +104,8 @@ fn places() -> [Offsets; GROUPS] {
     places
 }
 
-struct View<'a> {
+/// Looks for borders in pixels.
+struct BorderSampler<'a> {
     mesh: &'a Mesh,
     camera: &'a Camera,
     film: [DVec3; 3],
@@ -112,13 +113,14 @@ struct View<'a> {
     places: [Offsets; GROUPS],
 }
 
-struct Row<'a> {
-    view: &'a View<'a>,
+/// A row of pixels.
+struct BorderRow<'a> {
+    sampler: &'a BorderSampler<'a>,
     y: u32,
     width: u32,
 }
 
-impl Kernel for Row<'_> {
+impl Kernel for BorderRow<'_> {
     type Output = Vec<(f32, bool)>;
 
     #[inline(always)]
@@ -126,9 +128,10 @@ impl Kernel for Row<'_> {
         let mut seen = Vec::new();
         let mut row = Vec::with_capacity(self.width as usize);
         for x in 0..self.width {
-            let view = self.view;
-            view.screen.look(simd, (x, self.y), &view.places, &mut seen);
-            row.push(view.borders((x, self.y), &seen));
+            let sampler = self.sampler;
+            let screen = &sampler.screen;
+            screen.look(simd, (x, self.y), &sampler.places, &mut seen);
+            row.push(sampler.borders((x, self.y), &seen));
         }
         row
     }
@@ -140,7 +143,7 @@ const ALIKE: f64 = 0.866;
 /// No patch: a back, or nothing.
 const NO_PATCH: usize = usize::MAX;
 
-impl View<'_> {
+impl BorderSampler<'_> {
     /// How much of a border lies in a pixel, and whether it is one of a face.
     fn borders(&self, pixel: (u32, u32), seen: &[Seen]) -> (f32, bool) {
         let mut patches = [NO_PATCH; PLACES * PLACES];

@@ -5,8 +5,8 @@ use crate::Rgb;
 use crate::fields::Fields;
 use radiosity_geometry::{Face, Grid};
 
-/// Whether enough of a patch can be seen.
-pub(crate) fn is_exposed(fields: &Fields<'_>, patch: usize) -> bool {
+/// Whether anything of a patch can be seen.
+pub(crate) fn is_visible(fields: &Fields<'_>, patch: usize) -> bool {
     fields.visible[patch] > 0.0
 }
 
@@ -16,7 +16,7 @@ pub(crate) fn continued(fields: &Fields<'_>, face: &Face, values: &[Rgb]) -> Opt
     let Grid::Quad { a, b } = face.grid else {
         return None;
     };
-    let known = face.patches().map(|patch| is_exposed(fields, patch));
+    let known = face.patches().map(|patch| is_visible(fields, patch));
     let known: Vec<bool> = known.collect();
     if !known.contains(&false) || !known.contains(&true) {
         return None;
