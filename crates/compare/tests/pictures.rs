@@ -110,10 +110,10 @@ fn differences_are_red_above_and_blue_below() {
     found.pixels[1] = [0.75; 3];
     // The largest of a hundred differences is beyond full colour, the next is at it.
     let shown = difference_picture(&found, &reference);
-    assert_eq!(shown.full_scale, 0.5);
+    assert_eq!(shown.full_scale, 0.25);
     assert_eq!(
         shown.picture.bytes[..9],
-        [255, 0, 0, 128, 128, 255, 255, 255, 255]
+        [255, 0, 0, 0, 0, 255, 255, 255, 255]
     );
 }
 

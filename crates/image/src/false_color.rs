@@ -1,6 +1,7 @@
 //! Numbers as colours: which number has which.
 
-use crate::image::{Values, percentile};
+use crate::image::Values;
+use crate::percentile::{is_lit, percentile};
 use crate::rgb8_image::Rgb8Image;
 use colorous::VIRIDIS;
 
@@ -42,7 +43,7 @@ impl ColorScale {
 
     /// A round number that few of some numbers exceed: the top of a scale for them.
     pub fn top_for(values: &Values) -> f64 {
-        let numbers = values.values.iter().copied();
+        let numbers = values.values.iter().copied().filter(is_lit);
         let Some(high) = percentile(numbers, BELOW_TOP).map(f64::from) else {
             return 1.0;
         };

@@ -79,13 +79,3 @@ impl Values {
         self.values[y as usize * self.width as usize + x as usize]
     }
 }
-
-/// Of those numbers that are more than nothing, one of which this share of them are less; nothing if there
-/// are none.
-pub(crate) fn percentile(numbers: impl Iterator<Item = f32>, share: f64) -> Option<f32> {
-    let mut lit: Vec<f32> = numbers.filter(|n| *n > 0.0 && n.is_finite()).collect();
-    let last = lit.len().checked_sub(1)?;
-    let index = (share * last as f64).round() as usize;
-    let (_, bright, _) = lit.select_nth_unstable_by(index, f32::total_cmp);
-    Some(*bright)
-}

@@ -46,6 +46,7 @@ mod encode;
 mod false_color;
 mod image;
 mod legend;
+mod percentile;
 mod rgb8_image;
 mod text;
 mod tone;
@@ -61,6 +62,7 @@ pub use encode::{Metadata, PictureFormat, encode, encode_hdr, encode_pfm, encode
 pub use false_color::ColorScale;
 pub use image::{Image, Values};
 pub use legend::with_legend;
+pub use percentile::percentile;
 pub use rgb8_image::{Rgb8Image, Rgb16Image};
 pub use tone::{Curve, Exposure, LUMINANCE, ToneMap, Transfer};
 

@@ -6,7 +6,8 @@ mod dither;
 mod transfer;
 
 use crate::Rgb;
-use crate::image::{Image, percentile};
+use crate::image::Image;
+use crate::percentile::{is_lit, percentile};
 use crate::rgb8_image::{Rgb8Image, Rgb16Image};
 pub use curve::Curve;
 use dither::noise;
@@ -53,7 +54,7 @@ impl Exposure {
             Exposure::Fixed(factor) => factor as f32,
             Exposure::Automatic { percentile: share } => {
                 let luminances = image.pixels.iter().map(|pixel| luminance(*pixel));
-                percentile(luminances, share).map_or(1.0, |bright| 1.0 / bright)
+                percentile(luminances.filter(is_lit), share).map_or(1.0, |bright| 1.0 / bright)
             }
         }
     }
