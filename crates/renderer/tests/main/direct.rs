@@ -1,19 +1,15 @@
 //! Direct light at points: closed forms, shadows, and what samples say.
 
+use crate::closed_forms::corner_factor;
+use crate::light::{Light, one_sample};
+use crate::meshes::{cut_each, floor, quad};
 use proptest::prelude::*;
-use radiosity_geometry::{
-    Camera, DVec3, Divisions, FaceId, Mesh, Occluders, Polygon, Shape, Surface, subdivide,
-};
-use radiosity_renderer::{Fields, ImageParams, Renderer, Shading, ShadingParams};
+use radiosity_geometry::{Camera, DVec3, FaceId, Mesh, Occluders, Polygon, Shape};
+use radiosity_renderer::{Renderer, Shading, ShadingParams};
 use std::f64::consts::PI;
 
 const EXITANCE: f32 = 3.0;
 const REFLECTANCE: f32 = 0.8;
-
-/// A face with its front where the normal of its corners points to.
-fn quad(corners: [[f64; 3]; 4]) -> Shape {
-    Shape::Quad(corners.map(DVec3::from))
-}
 
 /// A lamp of size 2 x 1 at height 2 that shines down.
 fn lamp() -> Shape {
@@ -25,23 +21,10 @@ fn lamp() -> Shape {
     ])
 }
 
-fn floor() -> Shape {
-    quad([
-        [-4.0, -4.0, 0.0],
-        [4.0, -4.0, 0.0],
-        [4.0, 4.0, 0.0],
-        [-4.0, 4.0, 0.0],
-    ])
-}
-
 /// The first shape is cut into patches of its own, the second shines, the others stand about.
-fn cut(shapes: Vec<Shape>) -> Mesh {
-    let surface = |(k, shape): (usize, Shape)| Surface {
-        shape,
-        divisions: Some(Divisions::uniform(if k == 0 { 3 } else { 1 })),
-    };
-    let surfaces: Vec<Surface> = shapes.into_iter().enumerate().map(surface).collect();
-    subdivide(&surfaces, Divisions::uniform(1)).unwrap()
+fn room(shapes: Vec<Shape>) -> Mesh {
+    let divisions = [3].into_iter().chain(std::iter::repeat(1));
+    cut_each(shapes.into_iter().zip(divisions))
 }
 
 /// The radiosity shown at a point of the first shape, which is seen along a direction.
@@ -51,41 +34,28 @@ fn shown(mesh: &Mesh, at: DVec3, from: DVec3) -> f64 {
     let emission = |patch| [if is_lamp(patch) { EXITANCE } else { 0.0 }; 3];
     let emission: Vec<[f32; 3]> = (0..patches).map(emission).collect();
     let reflectance = vec![[REFLECTANCE, 0.5 * REFLECTANCE, 0.0]; patches];
-    let dark = vec![[0.0; 3]; patches];
-    let fields = Fields {
-        sources: &emission,
-        emission: &emission,
-        reflectance: &reflectance,
-        // Nothing is reflected more than once.
-        shown: &emission,
-        indirect: &dark,
-        direct: &dark,
-        direct_gain: &reflectance,
-        gathered_gain: &reflectance,
-        visible: &vec![1.0; patches],
+    // Nothing is reflected more than once.
+    let light = Light {
+        sources: emission.clone(),
+        shown: emission.clone(),
+        emission,
+        direct_gain: reflectance.clone(),
+        gathered_gain: reflectance.clone(),
+        reflectance,
+        ..Light::none(patches)
     };
     let eye = at + 0.01 * from.normalize();
     let camera = Camera::new(eye, at - eye, DVec3::new(0.3, 0.2, 0.1), 1e-6, 0.0).unwrap();
-    let params = ImageParams {
-        width: 1,
-        height: 1,
-        subpixels: 1,
-        samples: 1,
-        ..ImageParams::default()
-    };
-    let renderer = Renderer::new(mesh, &fields, &ShadingParams::default(), &[Shading::Exact]);
-    let image = &renderer.render(&camera, &params, &|_| ())[0];
+    let renderer = Renderer::new(
+        mesh,
+        &light.fields(),
+        &ShadingParams::default(),
+        &[Shading::Exact],
+    );
+    let image = &renderer.render(&camera, &one_sample(1), &|_| ())[0];
     let [red, green, blue] = image.pixels[0].map(|radiance| f64::from(radiance) * PI);
     assert!((green - 0.5 * red).abs() < 1e-6 && blue == 0.0);
     red
-}
-
-/// The form factor from a point to a rectangle parallel to its surface, with a corner right above it
-/// (Howell, "A Catalog of Radiation Heat Transfer Configuration Factors", B-3).
-fn corner_factor(a: f64, b: f64, distance: f64) -> f64 {
-    let (x, y) = (a / distance, b / distance);
-    let (p, q) = ((1.0 + x * x).sqrt(), (1.0 + y * y).sqrt());
-    (x / p * (y / p).atan() + y / q * (x / q).atan()) / (2.0 * PI)
 }
 
 fn expected(factor: f64) -> f64 {
@@ -97,7 +67,7 @@ const ROUNDING: f64 = 1e-6;
 
 #[test]
 fn without_anything_in_the_way_it_has_its_closed_form() {
-    let mesh = cut(vec![floor(), lamp()]);
+    let mesh = room(vec![floor(), lamp()]);
     let middle = 4.0 * corner_factor(1.0, 0.5, 2.0);
     let beside = 2.0 * (corner_factor(3.0, 0.5, 2.0) - corner_factor(1.0, 0.5, 2.0));
     for (x, factor) in [(0.0, middle), (2.0, beside)] {
@@ -125,7 +95,7 @@ fn half_a_lamp_gives_half_the_light() {
         (moved(1.0 + 1e-6), 1.0),
         (moved(-1.5), 1.0),
     ] {
-        let mesh = cut(vec![floor(), lamp(), quad(plate)]);
+        let mesh = room(vec![floor(), lamp(), quad(plate)]);
         let found = shown(&mesh, DVec3::ZERO, DVec3::new(-0.2, 0.1, 1.0));
         assert!(
             (found - share * expected(whole)).abs() < ROUNDING,
@@ -147,7 +117,7 @@ fn shadows_are_counted_once() {
         ])
     };
     // Seen from the origin, the first hides the lamp from x = 0 on, the second from x = 0.5 on.
-    let mesh = cut(vec![floor(), lamp(), plate(0.0, 1.0), plate(0.375, 1.5)]);
+    let mesh = room(vec![floor(), lamp(), plate(0.0, 1.0), plate(0.375, 1.5)]);
     let found = shown(&mesh, DVec3::ZERO, DVec3::new(-0.3, 0.1, 1.0));
     let whole = 4.0 * corner_factor(1.0, 0.5, 2.0);
     assert!((found - 0.5 * expected(whole)).abs() < ROUNDING, "{found}");
@@ -163,7 +133,7 @@ fn corners_in_the_plane_of_the_lamp_do_no_harm() {
             DVec3::new(0.9, 0.4, 1.0),
             DVec3::new(0.2, 0.9, 2.7),
         ]);
-        let mesh = cut(vec![floor(), lamp(), triangle]);
+        let mesh = room(vec![floor(), lamp(), triangle]);
         shown(
             &mesh,
             DVec3::new(0.1, 0.2, 0.0),
@@ -171,7 +141,7 @@ fn corners_in_the_plane_of_the_lamp_do_no_harm() {
         )
     };
     let whole = shown(
-        &cut(vec![floor(), lamp()]),
+        &room(vec![floor(), lamp()]),
         DVec3::new(0.1, 0.2, 0.0),
         DVec3::Z,
     );
@@ -197,7 +167,7 @@ fn behind_many_faces_samples_are_taken() {
     };
     let mut shapes = vec![floor(), lamp()];
     shapes.extend((0..100).map(strip));
-    let mesh = cut(shapes);
+    let mesh = room(shapes);
     let places = (0..64).map(|k| 1e-4 * DVec3::new(f64::from(k % 8), f64::from(k / 8), 0.0));
     let mean = places.map(|at| shown(&mesh, at, DVec3::Z)).sum::<f64>() / 64.0;
     let half = 0.5 * expected(4.0 * corner_factor(1.0, 0.5, 2.0));
@@ -209,19 +179,19 @@ fn behind_many_faces_samples_are_taken() {
 fn horizons_cut_lamps() {
     let wall = |x: f64| quad([[x, -3.0, 0.0], [x, 3.0, 0.0], [x, 3.0, 1.9], [x, -3.0, 1.9]]);
     let at = |x: f64| DVec3::new(x, 0.0, 1.0);
-    let through = shown(&cut(vec![wall(0.0), lamp()]), at(0.0), DVec3::X);
+    let through = shown(&room(vec![wall(0.0), lamp()]), at(0.0), DVec3::X);
     let right = quad([
         [0.0, -0.5, 2.0],
         [0.0, 0.5, 2.0],
         [1.0, 0.5, 2.0],
         [1.0, -0.5, 2.0],
     ]);
-    let beside = shown(&cut(vec![wall(0.0), right]), at(0.0), DVec3::X);
+    let beside = shown(&room(vec![wall(0.0), right]), at(0.0), DVec3::X);
     assert!(
         through > 0.1 && (through - beside).abs() < ROUNDING,
         "{through} {beside}"
     );
-    assert!(shown(&cut(vec![wall(1.5), lamp()]), at(1.5), DVec3::X) < ROUNDING);
+    assert!(shown(&room(vec![wall(1.5), lamp()]), at(1.5), DVec3::X) < ROUNDING);
 }
 
 /// Along each edge of the lamp.
@@ -269,10 +239,10 @@ proptest! {
         prop_assume!(triangles.iter().all(is_large));
         let mut shapes = vec![floor(), lamp()];
         shapes.extend(triangles.iter().map(|triangle| Shape::Triangle(corners(triangle))));
-        let mesh = cut(shapes);
+        let mesh = room(shapes);
         let at = DVec3::new(x, y, 0.0);
         let found = shown(&mesh, at, DVec3::Z);
-        let whole = sampled(&cut(vec![floor(), lamp()]), at);
+        let whole = sampled(&room(vec![floor(), lamp()]), at);
         let bound = 2.0 * whole * 3.0 * 2.0 * 0.5 / f64::from(STEPS);
         prop_assert!((found - expected(sampled(&mesh, at))).abs() < expected(bound), "{found}");
     }

@@ -1,6 +1,7 @@
 //! Lines over pictures lie where patches end and where numbers are equal.
 
-use radiosity_geometry::{Backs, Camera, DVec3, Divisions, Mesh, Shape, Surface, subdivide};
+use crate::meshes::{cut, quad};
+use radiosity_geometry::{Backs, Camera, DVec3, Shape};
 use radiosity_image::{Rgb8Image, Values};
 use radiosity_renderer::Outlines;
 
@@ -9,23 +10,17 @@ const SIZE: u32 = 40;
 /// A square, seen from its front, that fills a picture of 40 x 40 pixels but for a margin of 4 pixels,
 /// and whatever stands before it.
 fn outlines(divisions: u32, before: Option<Shape>, backs: Backs) -> Outlines {
-    let square = quad(0.8, 0.0);
-    let surface = |shape| Surface {
-        shape,
-        divisions: None,
-    };
-    let surfaces: Vec<Surface> = [square].into_iter().chain(before).map(surface).collect();
-    let mesh: Mesh = subdivide(&surfaces, Divisions::uniform(divisions)).unwrap();
+    let shapes = [plate(0.8, 0.0)].into_iter().chain(before);
+    let mesh = cut(shapes.collect(), divisions);
     let fov = 2.0 * 0.1f64.atan().to_degrees();
     let camera = Camera::new(10.0 * DVec3::Z, DVec3::NEG_Z, DVec3::Y, fov, 0.0).unwrap();
     Outlines::new(&mesh, (&camera, backs), (SIZE, SIZE))
 }
 
-/// Of this half of an edge at this height, with its front up; a negative one turns it down.
-fn quad(half: f64, z: f64) -> Shape {
+/// A square of this half of an edge at this height, with its front up; a negative one turns it down.
+fn plate(half: f64, z: f64) -> Shape {
     let h = half.abs();
-    let corners = [[-half, -h], [half, -h], [half, h], [-half, h]];
-    Shape::Quad(corners.map(|[x, y]| DVec3::new(x, y, z)))
+    quad([[-half, -h, z], [half, -h, z], [half, h, z], [-half, h, z]])
 }
 
 /// The brightness of a row of pixels under white lines.
@@ -70,7 +65,7 @@ fn backs_have_no_patches_and_may_be_looked_through() {
         (Backs::Black, borders(0.0)),
         (Backs::Transparent, borders(1.0)),
     ] {
-        let lines = outlines(4, Some(quad(-2.0, 1.0)), backs);
+        let lines = outlines(4, Some(plate(-2.0, 1.0)), backs);
         assert_eq!(row(|picture| lines.draw(picture, WHITE, 1.0)), expected);
     }
 }

@@ -1,21 +1,12 @@
 //! Light that is gathered at samples: closed forms.
 
-use radiosity_geometry::{Camera, DVec3, Divisions, FaceId, Mesh, Shape, Surface, subdivide};
-use radiosity_renderer::{Fields, ImageParams, Renderer, Shading, ShadingParams};
+use crate::closed_forms::corner_factor;
+use crate::light::{Light, one_sample};
+use crate::meshes::{cut, floor, quad};
+use crate::threads::with_threads;
+use radiosity_geometry::{Camera, DVec3, FaceId, Mesh, Shape};
+use radiosity_renderer::{ImageParams, Renderer, Shading, ShadingParams};
 use std::f32::consts::PI;
-
-fn quad(corners: [[f64; 3]; 4]) -> Shape {
-    Shape::Quad(corners.map(DVec3::from))
-}
-
-fn cut(shapes: Vec<Shape>, divisions: u32) -> Mesh {
-    let surface = |shape| Surface {
-        shape,
-        divisions: None,
-    };
-    let surfaces: Vec<Surface> = shapes.into_iter().map(surface).collect();
-    subdivide(&surfaces, Divisions::uniform(divisions)).unwrap()
-}
 
 /// A unit cube whose faces look inwards.
 fn cube() -> Vec<Shape> {
@@ -37,20 +28,13 @@ fn cube() -> Vec<Shape> {
 }
 
 /// The radiance that a camera sees in its middle.
-fn seen(mesh: &Mesh, fields: &Fields<'_>, camera: &Camera, directions: u32) -> [f32; 3] {
-    let params = ImageParams {
-        width: 1,
-        height: 1,
-        subpixels: 1,
-        samples: 1,
-        ..ImageParams::default()
-    };
+fn seen(mesh: &Mesh, light: &Light, camera: &Camera, directions: u32) -> [f32; 3] {
     let shading = ShadingParams {
         directions,
         ..ShadingParams::default()
     };
-    let renderer = Renderer::new(mesh, fields, &shading, &[Shading::Gathered]);
-    renderer.render(camera, &params, &|_| ())[0].pixels[0]
+    let renderer = Renderer::new(mesh, &light.fields(), &shading, &[Shading::Gathered]);
+    renderer.render(camera, &one_sample(1), &|_| ())[0].pixels[0]
 }
 
 fn camera(position: [f64; 3], direction: [f64; 3]) -> Camera {
@@ -66,19 +50,19 @@ fn a_furnace_is_evenly_bright() {
     let patches = mesh.patches.len();
     let (e, rho) = (2.0f32, 0.75f32);
     let of_all = |value: f32| vec![[value; 3]; patches];
-    let fields = Fields {
-        sources: &of_all(e),
-        reflectance: &of_all(rho),
-        indirect: &of_all(e / (1.0 - rho) - e - rho * e),
-        visible: &vec![1.0; patches],
-        shown: &of_all(e / (1.0 - rho)),
-        emission: &of_all(e),
-        direct: &of_all(rho * e),
-        direct_gain: &of_all(rho),
-        gathered_gain: &of_all(rho),
+    let light = Light {
+        sources: of_all(e),
+        reflectance: of_all(rho),
+        indirect: of_all(e / (1.0 - rho) - e - rho * e),
+        shown: of_all(e / (1.0 - rho)),
+        emission: of_all(e),
+        direct: of_all(rho * e),
+        direct_gain: of_all(rho),
+        gathered_gain: of_all(rho),
+        visible: vec![1.0; patches],
     };
     for direction in [[0.2, 0.1, -1.0], [1.0, 0.3, 0.4], [-0.1, 1.0, -0.5]] {
-        let found = seen(&mesh, &fields, &camera([0.4, 0.5, 0.6], direction), 3);
+        let found = seen(&mesh, &light, &camera([0.4, 0.5, 0.6], direction), 3);
         for channel in found {
             // Form factors to the six faces sum to 1 but for rounding.
             assert!(
@@ -94,12 +78,6 @@ fn a_furnace_is_evenly_bright() {
 /// of direct light.
 #[test]
 fn what_is_gathered_has_its_form_factor() {
-    let floor = quad([
-        [-4.0, -4.0, 0.0],
-        [4.0, -4.0, 0.0],
-        [4.0, 4.0, 0.0],
-        [-4.0, 4.0, 0.0],
-    ]);
     let square = |z: f64, right: f64| {
         quad([
             [-1.0, -1.0, z],
@@ -108,9 +86,7 @@ fn what_is_gathered_has_its_form_factor() {
             [right, -1.0, z],
         ])
     };
-    // Howell's B-3 for a corner of size 1 at distance 1, four times.
-    let (x, root) = (1.0f64, 2.0f64.sqrt());
-    let factor = 4.0 * 2.0 * (x / root * (x / root).atan()) / (2.0 * std::f64::consts::PI);
+    let factor = 4.0 * corner_factor(1.0, 1.0, 1.0);
     let lid = [
         [-9.0, -9.0, 0.5],
         [-9.0, 9.0, 0.5],
@@ -118,7 +94,7 @@ fn what_is_gathered_has_its_form_factor() {
         [0.0, -9.0, 0.5],
     ];
     for (others, share) in [(vec![], 1.0), (vec![quad(lid)], 0.5)] {
-        let shapes = [vec![floor.clone(), square(1.0, 1.0)], others].concat();
+        let shapes = [vec![floor(), square(1.0, 1.0)], others].concat();
         let mesh = cut(shapes, 1);
         let patches = mesh.patches.len();
         let glows = |patch: usize| mesh.patches[patch].face == FaceId(1);
@@ -130,20 +106,16 @@ fn what_is_gathered_has_its_form_factor() {
             }
         };
         let indirect: Vec<[f32; 3]> = (0..patches).map(indirect).collect();
-        let dark = vec![[0.0; 3]; patches];
-        let fields = Fields {
-            sources: &dark,
-            reflectance: &vec![[0.5; 3]; patches],
-            indirect: &indirect,
-            visible: &vec![1.0; patches],
-            shown: &indirect,
-            emission: &dark,
-            direct: &dark,
-            direct_gain: &vec![[9.0; 3]; patches],
-            gathered_gain: &vec![[0.8; 3]; patches],
+        let light = Light {
+            reflectance: vec![[0.5; 3]; patches],
+            shown: indirect.clone(),
+            indirect,
+            direct_gain: vec![[9.0; 3]; patches],
+            gathered_gain: vec![[0.8; 3]; patches],
+            ..Light::none(patches)
         };
         let from = camera([0.0, 0.0, 0.01], [0.0, 0.0, -1.0]);
-        let found = seen(&mesh, &fields, &from, 4096);
+        let found = seen(&mesh, &light, &from, 4096);
         for (c, exitance) in [3.0, 2.0, 1.0].into_iter().enumerate() {
             let expected = 0.8 * exitance * share * factor;
             let found = f64::from(found[c]) * std::f64::consts::PI;
@@ -164,46 +136,29 @@ fn thread_counts_leave_no_trace() {
     let patches = mesh.patches.len();
     let varied = |k: usize| [k as f32 % 7.0, 1.0, 0.5 + k as f32 % 3.0];
     let values: Vec<[f32; 3]> = (0..patches).map(varied).collect();
-    let (half, dark) = (vec![[0.5; 3]; patches], vec![[0.0; 3]; patches]);
-    let fields = Fields {
-        sources: &dark,
-        reflectance: &half,
-        indirect: &values,
-        visible: &vec![1.0; patches],
-        shown: &values,
-        emission: &dark,
-        direct: &dark,
-        direct_gain: &half,
-        gathered_gain: &half,
+    let half = vec![[0.5; 3]; patches];
+    let light = Light {
+        reflectance: half.clone(),
+        indirect: values.clone(),
+        shown: values,
+        direct_gain: half.clone(),
+        gathered_gain: half,
+        ..Light::none(patches)
     };
     let params = ImageParams {
         width: 33,
         height: 20,
         ..ImageParams::default()
     };
-    let with = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
-        pool.install(|| {
-            let renderer = Renderer::new(
-                &mesh,
-                &fields,
-                &ShadingParams::default(),
-                &[Shading::Gathered],
-            );
-            let wide = Camera::new(
-                DVec3::new(0.3, 0.4, 0.5),
-                DVec3::new(0.5, 0.4, -0.3),
-                DVec3::Z,
-                90.0,
-                0.0,
-            );
-            renderer.render(&wide.unwrap(), &params, &|_| ())
-        })
+    let shading = ShadingParams::default();
+    let position = DVec3::new(0.3, 0.4, 0.5);
+    let direction = DVec3::new(0.5, 0.4, -0.3);
+    let wide = Camera::new(position, direction, DVec3::Z, 90.0, 0.0).unwrap();
+    let render = || {
+        let renderer = Renderer::new(&mesh, &light.fields(), &shading, &[Shading::Gathered]);
+        renderer.render(&wide, &params, &|_| ())
     };
-    let one = with(1);
-    assert!(one == with(3));
+    let one = with_threads(1, render);
+    assert!(one == with_threads(3, render));
     assert!(one[0].shows_something());
 }
