@@ -31,6 +31,14 @@ pub enum PictureFormat {
 }
 
 /// The bytes of a file that holds the picture.
+///
+/// ```
+/// use radiosity_image::{PictureFormat, Rgb8Image, encode};
+///
+/// let orange = Rgb8Image::plain(1, 1, [255, 128, 0]);
+/// let ppm = encode(&orange, PictureFormat::PlainPpm, &[]);
+/// assert_eq!(ppm, b"P3\n1 1\n255\n255 128 0\n");
+/// ```
 pub fn encode(picture: &Rgb8Image, format: PictureFormat, metadata: &Metadata<'_>) -> Vec<u8> {
     match format {
         PictureFormat::PlainPpm => plain_ppm(picture),

@@ -1,4 +1,4 @@
-//! Stage 4: pictures.
+//! Stage 4: images of what cameras see.
 
 use crate::Rgb;
 use crate::fields::Fields;
@@ -74,8 +74,42 @@ impl<'a> Renderer<'a> {
         }
     }
 
-    /// What a camera sees: a picture by each of the shadings. `progress` is told how many further rows
-    /// are done, from any thread.
+    /// What a camera sees: an image of linear radiance, W/(m^2 sr), by each of the shadings.
+    /// `progress` is told how many further rows are done, from any thread.
+    ///
+    /// ```
+    /// use radiosity_geometry::{Camera, DVec3, Divisions, Shape, Surface, subdivide};
+    /// use radiosity_renderer::{Fields, ImageParams, Renderer, Shading, ShadingParams};
+    ///
+    /// let corners = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
+    /// let square = Surface {
+    ///     shape: Shape::Quad(corners.map(DVec3::from)),
+    ///     divisions: None,
+    /// };
+    /// let mesh = subdivide(&[square], Divisions::uniform(1))?;
+    /// // One patch, which emits 2 W/m^2 and reflects nothing.
+    /// let (emitted, nothing) = ([[2.0; 3]], [[0.0; 3]]);
+    /// let fields = Fields {
+    ///     sources: &emitted,
+    ///     reflectance: &nothing,
+    ///     indirect: &nothing,
+    ///     visible: &[1.0],
+    ///     shown: &emitted,
+    ///     emission: &emitted,
+    ///     direct: &nothing,
+    ///     direct_gain: &nothing,
+    ///     gathered_gain: &nothing,
+    /// };
+    /// let renderer = Renderer::new(&mesh, &fields, &ShadingParams::default(), &[Shading::Smooth]);
+    ///
+    /// let camera = Camera::new(2.0 * DVec3::Z, DVec3::NEG_Z, DVec3::Y, 30.0, 0.0)?;
+    /// let params = ImageParams { width: 4, height: 3, ..ImageParams::default() };
+    /// let images = renderer.render(&camera, &params, &|_| ());
+    /// let radiance = 2.0 / std::f32::consts::PI;
+    /// assert_eq!(images[0].pixels.len(), 12);
+    /// assert!((images[0].pixels[5][0] - radiance).abs() < 1e-6);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn render(
         &self,
         camera: &Camera,
