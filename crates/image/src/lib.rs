@@ -5,11 +5,11 @@
 //! | [`Image`]: linear radiance, W/(m^2 sr) | [`ToneMap`] | [`Rgb8Image`], [`Rgb16Image`]: levels |
 //! | [`Image`] | [`Image::weighted`] | [`Values`]: one number per pixel, in its own unit |
 //! | [`Values`] | [`ColorScale`], [`with_legend`] | [`Rgb8Image`] in false colours |
-//! | levels | [`encode`], [`encode_png16`] | bytes of PNG, PPM |
+//! | levels | [`encode()`], [`encode_png16`] | bytes of PNG, PPM |
 //! | [`Image`] | [`encode_pfm`], [`encode_hdr`], `encode_exr` | bytes of PFM, Radiance HDR, OpenEXR |
 //! | bytes of any of these | [`decode_picture`] | [`Decoded`]: linear radiance again |
 //! | a grey PNG | [`decode_regions`] | [`Regions`]: a number per pixel |
-//! | several [`Rgb8Image`]s | [`contact_sheet`] | one [`Rgb8Image`] |
+//! | several [`Rgb8Image`]s | [`contact_sheet()`] | one [`Rgb8Image`] |
 //!
 //! Pixels run row by row from the top left; channels are red, green and blue of linear sRGB.
 //! OpenEXR needs the feature `openexr`.
