@@ -5,7 +5,10 @@
 //! So a plane is fitted to the irradiances of fragments that are nearer than a part of that, by weighted
 //! least squares, and its value at the fragment is taken: no slope is lost, and no edge crossed.
 
+mod plane_fit;
+
 use crate::{Rgb, add_scaled};
+use plane_fit::PlaneFit;
 use radiosity_geometry::{DVec3, FaceId, Mesh, SurfaceId};
 use radiosity_simd::LANES;
 
@@ -76,15 +79,6 @@ pub(crate) struct IrradianceFilter<'a> {
     rows: &'a [Vec<Fragment>],
 }
 
-/// Sums of a weighted least squares fit of `a + b u + c v`.
-#[derive(Default)]
-struct Fit {
-    /// Of 1, u, v, u u, u v, v v.
-    moments: [f64; 6],
-    /// Of the values, times 1, u and v.
-    values: [[f64; 3]; 3],
-}
-
 impl<'a> IrradianceFilter<'a> {
     pub(crate) fn new(mesh: &'a Mesh, rows: &'a [Vec<Fragment>]) -> IrradianceFilter<'a> {
         IrradianceFilter { mesh, rows }
@@ -95,7 +89,7 @@ impl<'a> IrradianceFilter<'a> {
         let (center, normal) = (fragment.center(), self.normal(fragment));
         let (tangent, bitangent) = normal.any_orthonormal_pair();
         let radius = NEAR * f64::from(fragment.count / fragment.inverse.max(f32::MIN_POSITIVE));
-        let mut fit = Fit::default();
+        let mut fit = PlaneFit::default();
         for other in self.around(y, fragment) {
             let offset = other.center() - center;
             let closeness = 1.0 - offset.length_squared() / (radius * radius);
@@ -107,7 +101,10 @@ impl<'a> IrradianceFilter<'a> {
                     closeness * closeness
                 };
                 let plane = [offset.dot(tangent), offset.dot(bitangent)];
-                fit.add(kernel, plane, other);
+                let weight = kernel * f64::from(other.count);
+                // Means over samples, times their number.
+                let sums = other.irradiance.map(|sum| kernel * f64::from(sum));
+                fit.add(plane, weight, sums);
             }
         }
         fit.at_center()
@@ -141,47 +138,6 @@ impl<'a> IrradianceFilter<'a> {
         self.mesh.faces[fragment.face.index()].surface
     }
 }
-
-impl Fit {
-    /// Adds a fragment at a place of the plane, by its samples.
-    fn add(&mut self, kernel: f64, [u, v]: [f64; 2], fragment: &Fragment) {
-        let weight = kernel * f64::from(fragment.count);
-        let terms = [1.0, u, v, u * u, u * v, v * v];
-        for (moment, term) in self.moments.iter_mut().zip(terms) {
-            *moment += weight * term;
-        }
-        for (c, values) in self.values.iter_mut().enumerate() {
-            // The mean over samples, times their number.
-            let value = kernel * f64::from(fragment.irradiance[c]);
-            for (sum, term) in values.iter_mut().zip(terms) {
-                *sum += value * term;
-            }
-        }
-    }
-
-    /// The plane's value where `u = v = 0`, but never less than nothing; the mean, if the places do not
-    /// tell a plane.
-    fn at_center(&self) -> Rgb {
-        let [one, u, v, uu, uv, vv] = self.moments;
-        // Cofactors of the first column of the moments' matrix.
-        let cofactors = [uu * vv - uv * uv, v * uv - u * vv, u * uv - v * uu];
-        let determinant = one * cofactors[0] + u * cofactors[1] + v * cofactors[2];
-        let is_told = determinant > FLAT * one * uu * vv;
-        std::array::from_fn(|c| {
-            let values = &self.values[c];
-            let at_center = if is_told {
-                let products = values.iter().zip(cofactors).map(|(value, k)| value * k);
-                products.sum::<f64>() / determinant
-            } else {
-                values[0] / one
-            };
-            at_center.max(0.0) as f32
-        })
-    }
-}
-
-/// Determinants of less than this, where 1 is as good as it gets, tell no plane.
-const FLAT: f64 = 1e-2;
 
 #[cfg(test)]
 mod tests {
