@@ -5,7 +5,7 @@
 //! enlarged differences around grey) in `target/golden/`.
 
 use radiosity::geometry::Divisions;
-use radiosity::renderer::{Picture, PictureFormat, ToneMap, Transfer, encode};
+use radiosity::image::{PictureFormat, Rgb8Image, ToneMap, Transfer, encode};
 use radiosity_tests::{BOTH, in_checkout, pipeline, shipped, solve};
 use std::path::Path;
 
@@ -32,7 +32,7 @@ fn check(scene: &str, divisions: u32, points: u32) {
     compare(&format!("{}-smooth", scene.name), &tone.apply(&pictures[1]));
 }
 
-fn compare(name: &str, got: &Picture) {
+fn compare(name: &str, got: &Rgb8Image) {
     let path = in_checkout("tests/golden").join(format!("{name}.png"));
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
         save(&path, got);
@@ -51,7 +51,7 @@ fn compare(name: &str, got: &Picture) {
     let folder = in_checkout("target/golden");
     std::fs::create_dir_all(&folder).unwrap();
     let enlarged = |difference: i32| (128 + 16 * difference).clamp(0, 255) as u8;
-    let difference = Picture {
+    let difference = Rgb8Image {
         bytes: differences().map(enlarged).collect(),
         ..expected.clone()
     };
@@ -65,11 +65,11 @@ fn compare(name: &str, got: &Picture) {
     panic!("{name} differs by {worst} levels: see {}", folder.display());
 }
 
-fn save(path: &Path, picture: &Picture) {
+fn save(path: &Path, picture: &Rgb8Image) {
     std::fs::write(path, encode(picture, PictureFormat::Png(TRANSFER), &[])).unwrap();
 }
 
-fn load(path: &Path) -> Picture {
+fn load(path: &Path) -> Rgb8Image {
     let file = std::fs::File::open(path)
         .unwrap_or_else(|error| panic!("{}: {error}; see the head of this file", path.display()));
     let mut reader = png::Decoder::new(std::io::BufReader::new(file))
@@ -77,7 +77,7 @@ fn load(path: &Path) -> Picture {
         .unwrap();
     let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut bytes).unwrap();
-    Picture {
+    Rgb8Image {
         width: info.width,
         height: info.height,
         bytes,

@@ -1,7 +1,8 @@
 //! Quantities that pictures show, against each other: what leaves is what is emitted and what is
 //! reflected of what arrives.
 
-use radiosity::renderer::{Image, Shading};
+use radiosity::image::Image;
+use radiosity::renderer::Shading;
 use radiosity::scene::{Mode, Scene};
 use radiosity::{PatchLight, Pipeline, Quantity};
 use radiosity_tests::{pipeline, shipped, solve};

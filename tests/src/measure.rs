@@ -3,7 +3,7 @@
 use crate::reference::{radiance, reference_table, regions};
 use radiosity::compare::{Errors, Table, compare_pictures, compare_tables};
 use radiosity::geometry::{Divisions, PixelFilter, subdivide};
-use radiosity::renderer::Image;
+use radiosity::image::Image;
 use radiosity::scene::Scene;
 use radiosity::{Pipeline, Solved, cells, radiosity_table};
 

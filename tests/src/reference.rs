@@ -1,11 +1,9 @@
 //! The reference data.
 
 use crate::in_checkout;
-use radiosity::compare::{
-    Decoded, Regions, Screen, Table, decode_picture, decode_regions, parse_table,
-};
+use radiosity::compare::{Table, parse_table};
 use radiosity::geometry::PixelFilter;
-use radiosity::renderer::Transfer;
+use radiosity::image::{DecodeParams, Decoded, Regions, decode_picture, decode_regions};
 
 fn data(name: &str) -> Vec<u8> {
     std::fs::read(in_checkout(&format!("tests/data/{name}"))).expect("the data is there")
@@ -23,12 +21,7 @@ pub fn radiance(filter: PixelFilter) -> Decoded {
         PixelFilter::Box => "cornell-radiance-box.exr",
         other => panic!("there is no picture by {other:?}"),
     };
-    let linear = Screen {
-        exposure: 1.0,
-        transfer: None,
-        usual: Transfer::Gamma(1.0),
-    };
-    decode_picture(&data(name), &linear).expect("the picture is well-formed")
+    decode_picture(&data(name), &DecodeParams::default()).expect("the picture is well-formed")
 }
 
 /// The region of each pixel of that picture.

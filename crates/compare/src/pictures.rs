@@ -1,9 +1,7 @@
 //! The measure for pictures.
 
-use crate::decode::Decoded;
 use crate::errors::{Differences, Errors};
-use crate::regions::Regions;
-use radiosity_renderer::Image;
+use radiosity_image::{Decoded, Image, Regions};
 use std::collections::BTreeMap;
 
 /// Why two pictures cannot be compared.
@@ -42,6 +40,26 @@ const BRIGHTEST_LEVEL: f64 = 1.0 - 1e-5;
 ///
 /// Regions are every number in the map alone (`"2"`), all numbers up to one (`"0-2"`), and
 /// `"all"` pixels; those without an unclamped lit pixel are absent.
+///
+/// ```
+/// use radiosity_compare::compare_pictures;
+/// use radiosity_image::{Decoded, Image};
+///
+/// let grey = |levels: [f32; 2]| Image {
+///     width: 2,
+///     height: 1,
+///     pixels: levels.map(|level| [level; 3]).to_vec(),
+/// };
+/// let reference = Decoded {
+///     image: grey([0.25, 0.75]),
+///     levels: false,
+/// };
+/// let errors = compare_pictures(&grey([0.25, 0.8125]), &reference, None, 1.0)?;
+/// // Half of the pixels are too bright by 0.0625, and the reference's mean is 0.5.
+/// let (name, all) = &errors[0];
+/// assert_eq!((name.as_str(), all.bias_percent), ("all", 6.25));
+/// # Ok::<(), radiosity_compare::PictureError>(())
+/// ```
 pub fn compare_pictures(
     found: &Image,
     reference: &Decoded,

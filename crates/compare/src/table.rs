@@ -152,6 +152,18 @@ const WITHOUT_ERRORS: usize = 6;
 
 /// Reads a table: the columns `surface,ia,ib,B_r,B_g,B_b`, with or without `se_r,se_g,se_b`. Names may
 /// have an apostrophe before them, as [`table_name`] says.
+///
+/// ```
+/// use radiosity_compare::parse_table;
+///
+/// let table = parse_table(b"surface,ia,ib,B_r,B_g,B_b\nfloor,0,1,0.5,0.25,0.125\n")?;
+/// assert_eq!(table.rows[0].cell, [0, 1]);
+/// assert_eq!(table.rows[0].radiosity, [0.5, 0.25, 0.125]);
+///
+/// let error = parse_table(b"surface,ia,ib,B_r,B_g,B_b\nfloor,0,x,1,1,1\n").unwrap_err();
+/// assert_eq!(error.to_string(), "line 2: `x` is no whole number: ib");
+/// # Ok::<(), radiosity_compare::TableError>(())
+/// ```
 pub fn parse_table(bytes: &[u8]) -> Result<Table, TableError> {
     let mut reader = csv::Reader::from_reader(bytes);
     let header = reader

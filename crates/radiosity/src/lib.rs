@@ -8,7 +8,7 @@
 //! | 1 | [`geometry::subdivide`] | surfaces | [`geometry::Mesh`] |
 //! | 2 | [`form_factors::estimate`] | the mesh | [`form_factors::FormFactors`] |
 //! | 3 | [`solver::solve`] | form factors and materials | [`solver::Solution`] |
-//! | 4 | [`renderer::Renderer::render`] | mesh, radiosities, camera | [`renderer::Image`] |
+//! | 4 | [`renderer::Renderer::render`] | mesh, radiosities, camera | [`image::Image`] |
 //!
 //! Form factors and solutions are kept in a [`cache::Store`], each under the digest of what its
 //! stage reads, so a changed lamp does not touch form factors and a changed camera touches
@@ -60,6 +60,7 @@ pub use radiosity_cache as cache;
 pub use radiosity_compare as compare;
 pub use radiosity_form_factors as form_factors;
 pub use radiosity_geometry as geometry;
+pub use radiosity_image as image;
 pub use radiosity_matrix as matrix;
 pub use radiosity_reference as reference;
 pub use radiosity_renderer as renderer;

@@ -1,7 +1,8 @@
 //! From the settings of a scene to the parameters of the stages.
 
 use radiosity_form_factors::Estimator;
-use radiosity_renderer::{self as renderer, Curve, ImageParams, ToneMap, Transfer};
+use radiosity_image::{Curve, Exposure, ToneMap, Transfer};
+use radiosity_renderer::ImageParams;
 use radiosity_scene::{
     Automatic, Gamma, ImageSettings, Light, Mode, Relaxation, Scene, SolverMethod, Standard, Tone,
 };
@@ -64,8 +65,8 @@ const AUTOMATIC_PERCENTILE: f64 = 0.98;
 pub(crate) fn tone_map(image: &ImageSettings) -> ToneMap {
     ToneMap {
         exposure: match image.exposure.factor() {
-            Some(factor) => renderer::Exposure::Fixed(factor),
-            None => renderer::Exposure::Automatic {
+            Some(factor) => Exposure::Fixed(factor),
+            None => Exposure::Automatic {
                 percentile: AUTOMATIC_PERCENTILE,
             },
         },

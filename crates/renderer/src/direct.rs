@@ -9,14 +9,15 @@
 
 mod clear;
 mod pieces;
+mod receivers;
 
 use crate::Rgb;
-use crate::samples::{mix, sobol};
 use clear::clear_factors;
 pub(crate) use pieces::Cutting;
 use pieces::form_factor;
 use radiosity_geometry::{DVec2, DVec3, FaceId, Mesh, Occluders, Polygon};
 use radiosity_simd::{Float, LANES, Simd};
+pub(crate) use receivers::{EmitterSamples, Receivers};
 use std::sync::OnceLock;
 
 /// All emitters, and what stands before them.
@@ -24,8 +25,8 @@ pub(crate) struct DirectLight<'a> {
     mesh: &'a Mesh,
     occluders: Occluders,
     emitters: Vec<Emitter>,
-    /// For each patch, once it is asked for, how each emitter stands to it.
-    of_patches: Vec<OnceLock<Vec<Standing>>>,
+    /// For each patch, once it is asked for, what it sees of each emitter.
+    of_patches: Vec<OnceLock<Vec<EmitterVisibility>>>,
 }
 
 struct Emitter {
@@ -35,8 +36,8 @@ struct Emitter {
     exitance: Rgb,
 }
 
-/// How an emitter stands to a patch.
-enum Standing {
+/// What a patch sees of an emitter.
+enum EmitterVisibility {
     /// It shines elsewhere, or hides behind the horizon.
     Away,
     /// Seen whole from every point of the patch.
@@ -49,29 +50,6 @@ enum Standing {
 
 /// The most faces that are cut out one by one.
 const MOST_CUT: usize = 48;
-/// Points on an emitter to which segments are tried where more are in the way: from each sample, of
-/// which a pixel has many.
-const POINTS: u32 = 8;
-
-/// Eight points of patches, with their normals.
-pub(crate) struct Points<F> {
-    pub(crate) patches: [u32; LANES],
-    pub(crate) at: [F; 3],
-    pub(crate) normals: [F; 3],
-    pub(crate) lanes: u8,
-    pub(crate) segments: Segments,
-}
-
-/// To which points of an emitter segments are tried, where too much is in the way.
-#[derive(Clone, Copy)]
-pub(crate) enum Segments {
-    /// The samples of a pixel share a sequence, which this scrambles; the number is that of the sample
-    /// in the first lane.
-    Shared([u32; 2], u32),
-    /// To a point that depends on the place alone.
-    Single,
-}
-
 impl<'a> DirectLight<'a> {
     /// From what patches emit.
     pub(crate) fn new(mesh: &'a Mesh, sources: &[Rgb]) -> DirectLight<'a> {
@@ -100,8 +78,8 @@ impl<'a> DirectLight<'a> {
     pub(crate) fn irradiance<S: Simd>(
         &self,
         simd: S,
-        points: &Points<S::F64>,
-        room: &mut Cutting,
+        points: &Receivers<S::F64>,
+        workspace: &mut Cutting,
     ) -> [S::F32; 3] {
         let [x, y, z] = &points.at;
         let at = [x.lanes(), y.lanes(), z.lanes()];
@@ -112,19 +90,20 @@ impl<'a> DirectLight<'a> {
             let (mut clear, mut factors) = (0u8, [0.0; LANES]);
             for lane in (0..LANES).filter(|lane| points.lanes >> lane & 1 != 0) {
                 let patch = points.patches[lane] as usize;
-                let standings = self.of_patches[patch].get_or_init(|| self.stand(patch));
+                let visibilities =
+                    self.of_patches[patch].get_or_init(|| self.visibilities_from(patch));
                 let vector = |axes: &[[f64; LANES]; 3]| DVec3::from_array(axes.map(|a| a[lane]));
-                match &standings[index] {
-                    Standing::Away => {}
-                    Standing::Clear => clear |= 1 << lane,
-                    Standing::Cut(blockers) => {
+                match &visibilities[index] {
+                    EmitterVisibility::Away => {}
+                    EmitterVisibility::Clear => clear |= 1 << lane,
+                    EmitterVisibility::Cut(blockers) => {
                         let point = (vector(&at), vector(&normals));
-                        factors[lane] = self.cut_factor(emitter, blockers, point, room) as f32;
+                        factors[lane] = self.cut_factor(emitter, blockers, point, workspace) as f32;
                     }
-                    Standing::Crowded => {
+                    EmitterVisibility::Crowded => {
                         let face = self.mesh.patches[patch].face;
                         let point = (vector(&at), vector(&normals));
-                        let whole = self.cut_factor(emitter, &[], point, room);
+                        let whole = self.cut_factor(emitter, &[], point, workspace);
                         let seen =
                             self.seen_share(emitter, face, point, points.ends(lane, point.0));
                         factors[lane] = (whole * seen) as f32;
@@ -144,15 +123,15 @@ impl<'a> DirectLight<'a> {
         sums
     }
 
-    /// How each emitter stands to a patch.
-    fn stand(&self, patch: usize) -> Vec<Standing> {
+    /// What a patch sees of each emitter.
+    fn visibilities_from(&self, patch: usize) -> Vec<EmitterVisibility> {
         self.emitters
             .iter()
-            .map(|emitter| self.standing(emitter, patch))
+            .map(|emitter| self.visibility_from(emitter, patch))
             .collect()
     }
 
-    fn standing(&self, emitter: &Emitter, patch: usize) -> Standing {
+    fn visibility_from(&self, emitter: &Emitter, patch: usize) -> EmitterVisibility {
         let patch = &self.mesh.patches[patch];
         let tolerance = self.occluders.plane_tolerance();
         let heights = |points: &[DVec3], normal: DVec3, foot: DVec3| -> [f64; 2] {
@@ -168,7 +147,7 @@ impl<'a> DirectLight<'a> {
         let is_away =
             emitter.face == patch.face || over_patch[1] <= tolerance || over_lamp[1] <= tolerance;
         if is_away {
-            return Standing::Away;
+            return EmitterVisibility::Away;
         }
         // Whether both lie on one side of a face's plane, or in it: no segment between them crosses it.
         let is_beside = |face: FaceId| {
@@ -190,11 +169,11 @@ impl<'a> DirectLight<'a> {
         };
         let blockers: Vec<FaceId> = all.into_iter().filter(is_between).collect();
         if blockers.is_empty() && over_patch[0] >= 0.0 && over_lamp[0] > tolerance {
-            Standing::Clear
+            EmitterVisibility::Clear
         } else if blockers.len() > MOST_CUT {
-            Standing::Crowded
+            EmitterVisibility::Crowded
         } else {
-            Standing::Cut(blockers)
+            EmitterVisibility::Cut(blockers)
         }
     }
 
@@ -204,7 +183,7 @@ impl<'a> DirectLight<'a> {
         emitter: &Emitter,
         blockers: &[FaceId],
         (at, normal): (DVec3, DVec3),
-        room: &mut Cutting,
+        workspace: &mut Cutting,
     ) -> f64 {
         let corners = emitter.polygon.padded_corners().map(|corner| corner - at);
         let distance = emitter.normal.dot(corners[0]);
@@ -212,9 +191,9 @@ impl<'a> DirectLight<'a> {
             return 0.0;
         }
         let count = emitter.polygon.corners().len();
-        room.begin(&corners[..count], normal);
+        workspace.begin(&corners[..count], normal);
         for &blocker in blockers {
-            if room.pieces.is_empty() {
+            if workspace.pieces.is_empty() {
                 return 0.0;
             }
             let face = &self.mesh.faces[blocker.index()];
@@ -223,30 +202,14 @@ impl<'a> DirectLight<'a> {
             if height.abs() > self.occluders.plane_tolerance() {
                 let count = face.polygon.corners().len();
                 let plane = (emitter.normal, distance);
-                room.cut_out(&corners[..count], height > 0.0, plane);
+                workspace.cut_out(&corners[..count], height > 0.0, plane);
             }
         }
-        let factors = room.pieces.iter().map(|piece| form_factor(piece, normal));
+        let factors = workspace
+            .pieces
+            .iter()
+            .map(|piece| form_factor(piece, normal));
         factors.sum()
-    }
-}
-
-impl<F: Float<f64>> Points<F> {
-    /// Where segments from a lane end, in coordinates of an emitter.
-    #[inline(always)]
-    fn ends(&self, lane: usize, at: DVec3) -> impl Iterator<Item = DVec2> + use<F> {
-        let (scramble, first, count) = match self.segments {
-            Segments::Shared(scramble, sample) => {
-                let first = sample.wrapping_add(lane as u32).wrapping_mul(POINTS);
-                (scramble, first, POINTS)
-            }
-            Segments::Single => {
-                let bits = at.to_array().map(f64::to_bits);
-                let hash = bits.into_iter().fold(0, |hash, bits| mix(hash ^ bits));
-                ([hash as u32, (hash >> 32) as u32], 0, 1)
-            }
-        };
-        (0..count).map(move |k| sobol(first.wrapping_add(k), scramble))
     }
 }
 

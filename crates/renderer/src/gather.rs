@@ -7,12 +7,12 @@
 //! irradiance is the mean of the radiosities that they meet.
 
 use crate::Rgb;
-use crate::direct::{Cutting, DirectLight, Points, Segments};
+use crate::direct::{Cutting, DirectLight, EmitterSamples, Receivers};
 use crate::fields::Fields;
-use crate::interpolate::{Interpolant, Places};
+use crate::interpolate::{Interpolant, SurfacePoints};
+use crate::irradiance_filter::Gathered;
+use crate::pixel_sampler::SampleNumbers;
 use crate::samples::sobol;
-use crate::spots::Gathered;
-use crate::view::SampleNumbers;
 use radiosity_geometry::{DVec2, DVec3, FaceId, Mesh, Occluders, Ray};
 use radiosity_simd::{Float, LANES, Simd};
 use std::f64::consts::TAU;
@@ -28,7 +28,7 @@ pub(crate) struct Gather<'a> {
 
 /// What eight rays have met.
 #[derive(Default)]
-struct Met {
+struct FirstHits {
     lanes: u8,
     /// The sum of the inverse distances, backs included.
     inverse: f32,
@@ -62,27 +62,27 @@ impl<'a> Gather<'a> {
     pub(crate) fn look_around<S: Simd>(
         &self,
         simd: S,
-        places: &Places,
+        points: &SurfacePoints,
         numbers: &SampleNumbers,
-        (direct, room): (&DirectLight<'_>, &mut Cutting),
+        (direct, workspace): (&DirectLight<'_>, &mut Cutting),
     ) -> Gathered {
         let mut result = Gathered {
             irradiance: [[0.0; LANES]; 3],
             inverse: [0.0; LANES],
         };
         let share = 1.0 / self.directions as f32;
-        for lane in (0..LANES).filter(|lane| places.lanes >> lane & 1 != 0) {
-            let at = DVec3::from_array(places.points.map(|axis| axis[lane]));
+        for lane in (0..LANES).filter(|lane| points.lanes >> lane & 1 != 0) {
+            let at = DVec3::from_array(points.in_space.map(|axis| axis[lane]));
             // All samples of a pixel share one sequence.
             let first = (numbers.first + lane as u32).wrapping_mul(self.directions);
             let mut sums = [simd.splat_f32(0.0); 3];
             for from in (0..self.directions).step_by(LANES) {
                 let count = (self.directions - from).min(LANES as u32);
                 let taken = (first.wrapping_add(from), count);
-                let met = self.look((places.face, at), taken, numbers.scramble);
+                let met = self.look((points.face, at), taken, numbers.scramble);
                 result.inverse[lane] += share * met.inverse;
                 if met.lanes != 0 {
-                    self.add(simd, &met, (direct, &mut *room), &mut sums);
+                    self.add(simd, &met, (direct, &mut *workspace), &mut sums);
                 }
             }
             for (result, sum) in result.irradiance.iter_mut().zip(sums) {
@@ -98,10 +98,10 @@ impl<'a> Gather<'a> {
         (face, at): (FaceId, DVec3),
         (first, count): (u32, u32),
         scramble: [u32; 2],
-    ) -> Met {
+    ) -> FirstHits {
         let normal = self.mesh.faces[face.index()].normal;
         let (tangent, bitangent) = normal.any_orthonormal_pair();
-        let mut met = Met::default();
+        let mut met = FirstHits::default();
         for lane in 0..count as usize {
             let number = first.wrapping_add(lane as u32);
             let [x, y, z] = raised(sobol(number, scramble));
@@ -132,20 +132,20 @@ impl<'a> Gather<'a> {
     fn add<S: Simd>(
         &self,
         simd: S,
-        met: &Met,
-        (direct, room): (&DirectLight<'_>, &mut Cutting),
+        met: &FirstHits,
+        (direct, workspace): (&DirectLight<'_>, &mut Cutting),
         sums: &mut [S::F32; 3],
     ) {
         let [x, y, z] = &met.at;
         let [u, v, w] = &met.normals;
-        let points = Points {
+        let receivers = Receivers {
             patches: met.patches,
             at: [simd.f64(x), simd.f64(y), simd.f64(z)],
             normals: [simd.f64(u), simd.f64(v), simd.f64(w)],
             lanes: met.lanes,
-            segments: Segments::Single,
+            samples: EmitterSamples::Single,
         };
-        let irradiance = direct.irradiance(simd, &points, room);
+        let irradiance = direct.irradiance(simd, &receivers, workspace);
         for c in 0..3 {
             let reflected = irradiance[c] * simd.f32(&met.reflectance[c]);
             // Lanes that have met nothing are 0.

@@ -1,8 +1,8 @@
 //! The radiosity at any point, from the patches' values.
 
 use crate::bicubic::{Piece, pieces};
-use crate::exposed::{continued, is_exposed};
 use crate::fields::Fields;
+use crate::hidden_patches::{continued, is_visible};
 use crate::vertex::VertexValues;
 use crate::{Rgb, add_scaled};
 use radiosity_geometry::{DVec2, Face, FaceId, Grid, Location, Mesh};
@@ -18,39 +18,39 @@ pub(crate) struct Interpolant<'a> {
     vertices: VertexValues,
 }
 
-/// Points on a face, in its coordinates, and which of them matter.
+/// Eight points of a face, in its coordinates, and which of them matter.
 #[derive(Clone, Copy)]
-pub(crate) struct Places {
+pub(crate) struct SurfacePoints {
     pub(crate) face: FaceId,
-    pub(crate) at: [[f64; LANES]; 2],
+    pub(crate) on_face: [[f64; LANES]; 2],
     /// The same in space, if they are needed.
-    pub(crate) points: [[f64; LANES]; 3],
+    pub(crate) in_space: [[f64; LANES]; 3],
     pub(crate) lanes: u8,
 }
 
 /// Points in a polynomial or a patch each, by its number, and their coordinates there.
-pub(crate) struct Local {
+pub(crate) struct PatchCoords {
     pub(crate) number: [u32; LANES],
     at: [[f32; LANES]; 2],
 }
 
-impl Local {
-    /// Where places lie in the patches of their face.
+impl PatchCoords {
+    /// Where points of a face lie in its patches.
     #[inline(always)]
-    pub(crate) fn in_patches(mesh: &Mesh, places: &Places) -> Local {
-        let face = &mesh.faces[places.face.index()];
-        let mut local = Local {
+    pub(crate) fn in_patches(mesh: &Mesh, points: &SurfacePoints) -> PatchCoords {
+        let face = &mesh.faces[points.face.index()];
+        let mut coords = PatchCoords {
             number: [0; LANES],
             at: [[0.0; LANES]; 2],
         };
         for lane in 0..LANES {
-            let on_face = DVec2::new(places.at[0][lane], places.at[1][lane]);
+            let on_face = DVec2::new(points.on_face[0][lane], points.on_face[1][lane]);
             let (cell, on_patch) = face.grid.cell_at(on_face);
-            local.number[lane] = (face.first_patch + cell) as u32;
-            local.at[0][lane] = on_patch.x as f32;
-            local.at[1][lane] = on_patch.y as f32;
+            coords.number[lane] = (face.first_patch + cell) as u32;
+            coords.at[0][lane] = on_patch.x as f32;
+            coords.at[1][lane] = on_patch.y as f32;
         }
-        local
+        coords
     }
 
     /// Goes through the numbers: the first of those of the lanes that are left, and the lanes that
@@ -84,10 +84,10 @@ impl<'a> Interpolant<'a> {
                 all.extend(pieces((a, b), |i, j| of_patches[(i * b + j) as usize]));
                 if let Some(continued) = continued(fields, face, values) {
                     let continued = pieces((a, b), |i, j| continued[(i * b + j) as usize]);
-                    let exposed = face.patches().map(|patch| is_exposed(fields, patch));
-                    let pieces = all[first..].iter_mut().zip(continued).zip(exposed);
+                    let visible = face.patches().map(|patch| is_visible(fields, patch));
+                    let pieces = all[first..].iter_mut().zip(continued).zip(visible);
                     pieces
-                        .filter(|(_, is_exposed)| *is_exposed)
+                        .filter(|(_, is_visible)| *is_visible)
                         .for_each(|((piece, continued), _)| *piece = continued);
                 }
                 Some(first as u32)
@@ -119,17 +119,21 @@ impl<'a> Interpolant<'a> {
         value.map(|channel| channel.max(0.0))
     }
 
-    /// The smooth values at places; never negative, though a bicubic may be.
+    /// The smooth values at points; never negative, though a bicubic may be.
     #[inline(always)]
-    pub(crate) fn at<S: Simd>(&self, simd: S, (places, local): (&Places, &Local)) -> [S::F32; 3] {
+    pub(crate) fn at<S: Simd>(
+        &self,
+        simd: S,
+        (points, coords): (&SurfacePoints, &PatchCoords),
+    ) -> [S::F32; 3] {
         let zero = simd.splat_f32(0.0);
         let mut values = [zero; 3];
-        let first_patch = self.mesh.faces[places.face.index()].first_patch;
-        let first_piece = self.grids[places.face.index()];
-        let at = [simd.f32(&local.at[0]), simd.f32(&local.at[1])];
-        let mut rest = places.lanes;
+        let first_patch = self.mesh.faces[points.face.index()].first_patch;
+        let first_piece = self.grids[points.face.index()];
+        let at = [simd.f32(&coords.at[0]), simd.f32(&coords.at[1])];
+        let mut rest = points.lanes;
         while rest != 0 {
-            let (number, same) = local.first_of(rest);
+            let (number, same) = coords.first_of(rest);
             let found = match first_piece {
                 Some(first) => {
                     let piece = &self.pieces[first as usize + number - first_patch];
@@ -162,7 +166,7 @@ fn value_of(piece: &Piece, at: DVec2) -> Rgb {
     value
 }
 
-/// A piece at places, by Horner's rule.
+/// A piece at points, by Horner's rule.
 #[inline(always)]
 fn polynomial<S: Simd>(simd: S, piece: &Piece, [s, t]: [S::F32; 2]) -> [S::F32; 3] {
     let mut values = [simd.splat_f32(0.0); 3];

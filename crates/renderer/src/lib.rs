@@ -1,51 +1,36 @@
 //! Turns a [`Mesh`](radiosity_geometry::Mesh) with one colour per patch and a camera into
-//! pictures: patch-constant, smooth, or with exact direct light, from one pass over the pixels.
+//! linear images ([`Image`](radiosity_image::Image)): patch-constant, smooth, or with exact direct
+//! light, from one pass over the pixels. [`Outlines`] draws the borders of patches over them.
 //!
 //! A diffuse surface of radiosity `B` shows the radiance `L = B / pi` in every direction, on its
-//! front; its back is black, and so is the background. [`Image`] holds linear radiance,
-//! [`Picture`] what a screen shows.
+//! front; its back is black, and so is the background.
 //!
-//! This crate knows nothing of matrices, or of how the radiosities came about.
+//! This crate knows nothing of matrices, of how the radiosities came about, or of how images are
+//! shown and encoded.
 
 mod bicubic;
 mod direct;
-mod encode;
-mod exposed;
-mod false_color;
 mod fields;
 mod gather;
 mod hanging;
-mod image;
+mod hidden_patches;
 mod interpolate;
-mod lettering;
-mod lines;
+mod irradiance_filter;
+mod overlay;
 mod params;
-mod picture;
+mod pixel_filter;
+mod pixel_sampler;
 mod render;
-mod resample;
 mod samples;
 mod shade;
-mod sheet;
-mod spots;
-mod tone;
 mod vertex;
-mod view;
 
-#[cfg(feature = "openexr")]
-pub use encode::encode_exr;
-pub use encode::{Metadata, PictureFormat, encode, encode_deep_png, encode_hdr, encode_pfm};
-pub use false_color::{ColorScale, with_legend};
 pub use fields::Fields;
-pub use image::{Image, Values};
-pub use lines::Outlines;
+pub use overlay::Outlines;
 pub use params::ImageParams;
-pub use picture::{DeepPicture, Picture};
 pub use render::{Renderer, Shading, ShadingParams};
-pub use sheet::{contact_sheet, thumbnail_width};
-pub use tone::{Curve, Exposure, LUMINANCE, ToneMap, Transfer};
 
-/// Red, green, blue.
-pub type Rgb = [f32; 3];
+use radiosity_image::Rgb;
 
 /// `weight * color`, added to a sum.
 pub(crate) fn add_scaled(sum: &mut Rgb, weight: f32, color: Rgb) {

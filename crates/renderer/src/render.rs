@@ -1,14 +1,14 @@
-//! Stage 4: pictures.
+//! Stage 4: images of what cameras see.
 
 use crate::Rgb;
 use crate::fields::Fields;
-use crate::image::Image;
+use crate::irradiance_filter::{Fragment, IrradianceFilter};
 use crate::params::ImageParams;
-use crate::resample::filtered;
+use crate::pixel_filter::filtered;
+use crate::pixel_sampler::PixelSampler;
 use crate::shade::Shader;
-use crate::spots::{Spot, Spots};
-use crate::view::View;
 use radiosity_geometry::{Camera, Mesh};
+use radiosity_image::Image;
 use rayon::prelude::*;
 
 /// How the light on patches is shown.
@@ -74,8 +74,42 @@ impl<'a> Renderer<'a> {
         }
     }
 
-    /// What a camera sees: a picture by each of the shadings. `progress` is told how many further rows
-    /// are done, from any thread.
+    /// What a camera sees: an image of linear radiance, W/(m^2 sr), by each of the shadings.
+    /// `progress` is told how many further rows are done, from any thread.
+    ///
+    /// ```
+    /// use radiosity_geometry::{Camera, DVec3, Divisions, Shape, Surface, subdivide};
+    /// use radiosity_renderer::{Fields, ImageParams, Renderer, Shading, ShadingParams};
+    ///
+    /// let corners = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
+    /// let square = Surface {
+    ///     shape: Shape::Quad(corners.map(DVec3::from)),
+    ///     divisions: None,
+    /// };
+    /// let mesh = subdivide(&[square], Divisions::uniform(1))?;
+    /// // One patch, which emits 2 W/m^2 and reflects nothing.
+    /// let (emitted, nothing) = ([[2.0; 3]], [[0.0; 3]]);
+    /// let fields = Fields {
+    ///     sources: &emitted,
+    ///     reflectance: &nothing,
+    ///     indirect: &nothing,
+    ///     visible: &[1.0],
+    ///     shown: &emitted,
+    ///     emission: &emitted,
+    ///     direct: &nothing,
+    ///     direct_gain: &nothing,
+    ///     gathered_gain: &nothing,
+    /// };
+    /// let renderer = Renderer::new(&mesh, &fields, &ShadingParams::default(), &[Shading::Smooth]);
+    ///
+    /// let camera = Camera::new(2.0 * DVec3::Z, DVec3::NEG_Z, DVec3::Y, 30.0, 0.0)?;
+    /// let params = ImageParams { width: 4, height: 3, ..ImageParams::default() };
+    /// let images = renderer.render(&camera, &params, &|_| ());
+    /// let radiance = 2.0 / std::f32::consts::PI;
+    /// assert_eq!(images[0].pixels.len(), 12);
+    /// assert!((images[0].pixels[5][0] - radiance).abs() < 1e-6);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn render(
         &self,
         camera: &Camera,
@@ -89,19 +123,19 @@ impl<'a> Renderer<'a> {
                 .map(|parts| filtered(parts, params.subpixels, params.filter));
             return images.collect();
         }
-        let view = View::new(self.mesh, &self.shader, camera, params);
+        let sampler = PixelSampler::new(self.mesh, &self.shader, camera, params);
         let (width, height) = (params.width as usize, params.height as usize);
         let count = self.shader.shadings().len();
         let mut pixels = vec![[0.0; 3]; width * height * count];
         let rows = pixels.par_chunks_mut((width * count).max(1)).enumerate();
         let take = |(y, row): (usize, &mut [Rgb])| {
-            let spots = view.take_row(y as u32, row);
+            let fragments = sampler.sample_row(y as u32, row);
             progress(1);
-            spots
+            fragments
         };
-        let spots: Vec<Vec<Spot>> = rows.map(take).collect();
+        let fragments: Vec<Vec<Fragment>> = rows.map(take).collect();
         if let Some(index) = self.shader.index_of(Shading::Gathered) {
-            self.add_gathered(&spots, &mut pixels, (width, index));
+            self.add_gathered(&fragments, &mut pixels, (width, index));
         }
         let image = |k: usize| Image {
             width: params.width,
@@ -112,14 +146,19 @@ impl<'a> Renderer<'a> {
     }
 
     /// Adds what was gathered to every pixel of one of the shadings.
-    fn add_gathered(&self, rows: &[Vec<Spot>], pixels: &mut [Rgb], (width, index): (usize, usize)) {
+    fn add_gathered(
+        &self,
+        rows: &[Vec<Fragment>],
+        pixels: &mut [Rgb],
+        (width, index): (usize, usize),
+    ) {
         let count = self.shader.shadings().len();
-        let spots = Spots::new(self.mesh, rows);
+        let filter = IrradianceFilter::new(self.mesh, rows);
         let row = |(y, row): (usize, &mut [Rgb])| {
-            for spot in &rows[y] {
-                let irradiance = spots.irradiance(y, spot);
-                let pixel = &mut row[spot.x as usize * count + index];
-                (0..3).for_each(|c| pixel[c] += spot.gain[c] * irradiance[c]);
+            for fragment in &rows[y] {
+                let irradiance = filter.irradiance(y, fragment);
+                let pixel = &mut row[fragment.x as usize * count + index];
+                (0..3).for_each(|c| pixel[c] += fragment.gain[c] * irradiance[c]);
             }
         };
         let chunks = pixels.par_chunks_mut((width * count).max(1));

@@ -1,17 +1,17 @@
 //! The radiosity that a sample shows, by each shading.
 
 use crate::Rgb;
-use crate::direct::{Cutting, DirectLight, Points, Segments};
+use crate::direct::{Cutting, DirectLight, EmitterSamples, Receivers};
 use crate::fields::Fields;
 use crate::gather::Gather;
-use crate::interpolate::{Interpolant, Local, Places};
+use crate::interpolate::{Interpolant, PatchCoords, SurfacePoints};
+use crate::irradiance_filter::{Fragment, Gathered};
+use crate::pixel_sampler::SampleNumbers;
 use crate::render::{Shading, ShadingParams};
-use crate::spots::{Gathered, Spot};
-use crate::view::SampleNumbers;
 use radiosity_geometry::{DVec3, Mesh};
 use radiosity_simd::{Float, LANES, Simd};
 
-/// Shows the light of patches at places of their faces.
+/// Shows the light of patches at points of their faces.
 pub(crate) struct Shader<'a> {
     mesh: &'a Mesh,
     fields: Fields<'a>,
@@ -28,13 +28,13 @@ pub(crate) struct Shader<'a> {
 
 /// Memory that is used again and again.
 #[derive(Default)]
-pub(crate) struct Room {
+pub(crate) struct Workspace {
     cutting: Cutting,
     pub(crate) numbers: SampleNumbers,
     /// Where light was gathered so far.
-    pub(crate) spots: Vec<Spot>,
+    pub(crate) fragments: Vec<Fragment>,
     /// The first of this pixel.
-    pub(crate) first_spot: usize,
+    pub(crate) first_fragment: usize,
 }
 
 impl<'a> Shader<'a> {
@@ -80,43 +80,47 @@ impl<'a> Shader<'a> {
         self.shadings.iter().position(|other| *other == shading)
     }
 
-    /// Whether places are asked for their points in space.
+    /// Whether points are asked for their points in space.
     pub(crate) fn needs_points(&self) -> bool {
         self.direct.is_some()
     }
 
-    /// The radiosities at places by one of the shadings.
+    /// The radiosities at points by one of the shadings.
     #[inline(always)]
     pub(crate) fn shade<S: Simd>(
         &self,
         simd: S,
         shading: Shading,
-        place: (&Places, &Local),
-        room: &mut Room,
+        points: (&SurfacePoints, &PatchCoords),
+        workspace: &mut Workspace,
     ) -> [S::F32; 3] {
         let interpolated = match shading {
             Shading::Constant => None,
             Shading::Smooth => self.smooth.as_ref(),
             Shading::Exact => self.indirect.as_ref(),
-            Shading::Gathered => return self.gathered(simd, place, room),
+            Shading::Gathered => return self.gathered(simd, points, workspace),
         };
         let Some(interpolant) = interpolated else {
-            return self.constant(simd, place);
+            return self.constant(simd, points);
         };
-        let values = interpolant.at(simd, place);
+        let values = interpolant.at(simd, points);
         if shading == Shading::Smooth {
             return values;
         }
-        self.with_direct(simd, values, place, room)
+        self.with_direct(simd, values, points, workspace)
     }
 
-    /// The values of the patches at places.
+    /// The values of the patches at points.
     #[inline(always)]
-    fn constant<S: Simd>(&self, simd: S, (places, local): (&Places, &Local)) -> [S::F32; 3] {
+    fn constant<S: Simd>(
+        &self,
+        simd: S,
+        (points, coords): (&SurfacePoints, &PatchCoords),
+    ) -> [S::F32; 3] {
         let mut values = [simd.splat_f32(0.0); 3];
-        let mut rest = places.lanes;
+        let mut rest = points.lanes;
         while rest != 0 {
-            let (patch, same) = local.first_of(rest);
+            let (patch, same) = coords.first_of(rest);
             for (c, value) in values.iter_mut().enumerate() {
                 let radiosity = simd.splat_f32(self.fields.shown[patch][c]);
                 *value = radiosity.select(same, *value);
@@ -126,67 +130,74 @@ impl<'a> Shader<'a> {
         values
     }
 
-    /// Emitted and direct light; the rest goes to spots.
+    /// Emitted and direct light; the rest goes to fragments.
     #[inline(always)]
     fn gathered<S: Simd>(
         &self,
         simd: S,
-        (places, local): (&Places, &Local),
-        room: &mut Room,
+        (points, coords): (&SurfacePoints, &PatchCoords),
+        workspace: &mut Workspace,
     ) -> [S::F32; 3] {
         if let (Some(gather), Some(direct)) = (&self.gather, &self.direct) {
-            let with = (direct, &mut room.cutting);
-            let gathered = gather.look_around(simd, places, &room.numbers, with);
-            self.add_spots((places, local), &gathered, room);
+            let with = (direct, &mut workspace.cutting);
+            let gathered = gather.look_around(simd, points, &workspace.numbers, with);
+            self.add_to_fragment((points, coords), &gathered, workspace);
         }
-        self.with_direct(simd, [simd.splat_f32(0.0); 3], (places, local), room)
+        self.with_direct(simd, [simd.splat_f32(0.0); 3], (points, coords), workspace)
     }
 
-    /// Adds samples to the spot of their pixel and face.
-    fn add_spots(&self, (places, local): (&Places, &Local), gathered: &Gathered, room: &mut Room) {
-        let mut of_pixel = room.spots[room.first_spot..].iter();
-        let known = of_pixel.position(|spot| spot.face == places.face);
-        let index = known.map_or(room.spots.len(), |known| room.first_spot + known);
+    /// Adds samples to the fragment of their pixel and face.
+    fn add_to_fragment(
+        &self,
+        (points, coords): (&SurfacePoints, &PatchCoords),
+        gathered: &Gathered,
+        workspace: &mut Workspace,
+    ) {
+        let mut of_pixel = workspace.fragments[workspace.first_fragment..].iter();
+        let known = of_pixel.position(|fragment| fragment.face == points.face);
+        let index = known.map_or(workspace.fragments.len(), |known| {
+            workspace.first_fragment + known
+        });
         if known.is_none() {
-            room.spots.push(Spot::new(places.face));
+            workspace.fragments.push(Fragment::new(points.face));
         }
-        for lane in (0..LANES).filter(|lane| places.lanes >> lane & 1 != 0) {
-            let at = DVec3::from_array(places.points.map(|axis| axis[lane]));
-            let weight = room.numbers.weights[lane];
-            let gain = self.fields.gathered_gain[local.number[lane] as usize];
+        for lane in (0..LANES).filter(|lane| points.lanes >> lane & 1 != 0) {
+            let at = DVec3::from_array(points.in_space.map(|axis| axis[lane]));
+            let weight = workspace.numbers.weights[lane];
+            let gain = self.fields.gathered_gain[coords.number[lane] as usize];
             let gain = gain.map(|gain| weight * gain);
-            room.spots[index].add(lane, at, gathered, gain);
+            workspace.fragments[index].add(lane, at, gathered, gain);
         }
     }
 
-    /// What patches emit and reflect of direct light at places, added to indirect light that leaves
+    /// What patches emit and reflect of direct light at points, added to indirect light that leaves
     /// there.
     #[inline(always)]
     fn with_direct<S: Simd>(
         &self,
         simd: S,
         indirect: [S::F32; 3],
-        (places, local): (&Places, &Local),
-        room: &mut Room,
+        (points, coords): (&SurfacePoints, &PatchCoords),
+        workspace: &mut Workspace,
     ) -> [S::F32; 3] {
         let mut values = indirect;
         let Some(direct) = &self.direct else {
             return values;
         };
-        let [x, y, z] = &places.points;
-        let normal = self.mesh.faces[places.face.index()].normal;
-        let points = Points {
-            patches: local.number,
+        let [x, y, z] = &points.in_space;
+        let normal = self.mesh.faces[points.face.index()].normal;
+        let receivers = Receivers {
+            patches: coords.number,
             at: [simd.f64(x), simd.f64(y), simd.f64(z)],
             normals: normal.to_array().map(|axis| simd.splat_f64(axis)),
-            lanes: places.lanes,
-            segments: Segments::Shared(room.numbers.scramble, room.numbers.first),
+            lanes: points.lanes,
+            samples: EmitterSamples::Shared(workspace.numbers.scramble, workspace.numbers.first),
         };
-        let irradiance = direct.irradiance(simd, &points, &mut room.cutting);
+        let irradiance = direct.irradiance(simd, &receivers, &mut workspace.cutting);
         let fields = &self.fields;
-        let mut rest = places.lanes;
+        let mut rest = points.lanes;
         while rest != 0 {
-            let (patch, same) = local.first_of(rest);
+            let (patch, same) = coords.first_of(rest);
             for c in 0..3 {
                 let direct = irradiance[c] * simd.splat_f32(fields.direct_gain[patch][c]);
                 let emission = simd.splat_f32(fields.emission[patch][c]);

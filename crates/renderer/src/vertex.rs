@@ -13,9 +13,9 @@
 //! Two patches belong together at a vertex if they have equal emission and reflectance and
 //! their normals differ by less than the crease angle, directly or by way of others there.
 
-use crate::exposed::is_exposed;
 use crate::fields::Fields;
 use crate::hanging::{Hanging, hanging_vertices};
+use crate::hidden_patches::is_visible;
 use crate::{Rgb, add_scaled};
 use radiosity_geometry::{DVec2, DVec3, Face, FaceId, Mesh, Polygon};
 use radiosity_simd::Simd;
@@ -277,7 +277,7 @@ fn groups(
 
 /// Has patches that cannot be seen not count, as long as there are others.
 fn without_hidden(fields: &Fields<'_>, mut vertex: Vec<Corner>) -> Vec<Corner> {
-    let is_hidden = |corner: &Corner| !is_exposed(fields, corner.patch);
+    let is_hidden = |corner: &Corner| !is_visible(fields, corner.patch);
     if !vertex.iter().all(is_hidden) {
         let hidden = vertex.iter_mut().filter(|corner| is_hidden(corner));
         hidden.for_each(|corner| corner.angle = 0.0);

@@ -1,10 +1,14 @@
 //! How fast pictures are, and how near the truth: beside the course's loop and a path tracer.
 
 use super::{Figure, Target, best_seconds, course, course_display, form_factors};
-use radiosity::compare::{Decoded, Screen, compare_pictures, decode_picture, decode_regions};
+use radiosity::compare::compare_pictures;
 use radiosity::geometry::{Divisions, PixelFilter};
+use radiosity::image::{
+    DecodeParams, Decoded, Image, PictureFormat, Regions, ToneMap, Transfer, decode_picture,
+    decode_regions, encode,
+};
 use radiosity::reference::Tracer;
-use radiosity::renderer::{Image, PictureFormat, Shading, ToneMap, Transfer, encode};
+use radiosity::renderer::Shading;
 use radiosity::scene::{Mode, Scene, load};
 use radiosity::{Error, Pipeline, Silent, Sources};
 use std::path::Path;
@@ -155,7 +159,7 @@ fn unreadable(error: impl std::fmt::Display) -> Error {
 /// The path-traced picture, and its regions.
 struct Truth {
     picture: Decoded,
-    regions: radiosity::compare::Regions,
+    regions: Regions,
 }
 
 impl Truth {
@@ -165,12 +169,8 @@ impl Truth {
             std::fs::read(&path)
                 .map_err(|error| Error::Input(format!("{}: {error}", path.display())))
         };
-        let linear = Screen {
-            exposure: 1.0,
-            transfer: None,
-            usual: Transfer::Gamma(1.0),
-        };
-        let picture = decode_picture(&read("cornell-radiance-box.exr")?, &linear);
+        let params = DecodeParams::default();
+        let picture = decode_picture(&read("cornell-radiance-box.exr")?, &params);
         let regions = decode_regions(&read("cornell-regions.png")?);
         Ok(Truth {
             picture: picture.map_err(unreadable)?,

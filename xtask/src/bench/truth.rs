@@ -3,10 +3,11 @@
 //! The oracle is noisy, but tells how much; what is reported is without its noise.
 
 use super::{Figure, Target};
-use radiosity::compare::{Decoded, Errors, Table, compare_pictures, compare_tables};
+use radiosity::compare::{Errors, Table, compare_pictures, compare_tables};
 use radiosity::geometry::Mesh;
+use radiosity::image::{Decoded, Image};
 use radiosity::reference::{Tracer, cell_means};
-use radiosity::renderer::{Image, Shading};
+use radiosity::renderer::Shading;
 use radiosity::scene::{Mode, Scene, load};
 use radiosity::{Error, Pipeline, Silent, Sources, cells, radiosity_table, reference_table};
 use std::path::Path;

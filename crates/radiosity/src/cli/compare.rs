@@ -11,10 +11,12 @@ use crate::export::{cells, table_mesh};
 use crate::resources::grouped;
 use crate::settings::transfer;
 use radiosity_compare::{
-    Cell, Decoded, Errors, Screen, compare_pictures, compare_tables, decode_picture,
-    decode_regions, difference_picture, parse_table,
+    Cell, Errors, compare_pictures, compare_tables, difference_picture, parse_table,
 };
-use radiosity_renderer::{Image, PictureFormat, Transfer, encode, encode_pfm};
+use radiosity_image::{
+    DecodeParams, Decoded, Image, PictureFormat, Transfer, decode_picture, decode_regions, encode,
+    encode_pfm,
+};
 use radiosity_scene::{ImageSettings, Scene, Tone};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -91,10 +93,10 @@ fn pictures(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Er
     let exposure = args
         .exposure
         .or(image.and_then(|image| image.exposure.factor()));
-    let screen = Screen {
+    let screen = DecodeParams {
         exposure: exposure.unwrap_or(1.0),
         transfer: args.gamma.map(transfer),
-        usual: image.map_or(USUAL, |image| transfer(image.gamma)),
+        default_transfer: image.map_or(USUAL, |image| transfer(image.gamma)),
     };
     let picture = |path: &Path| decode_picture(&read(path)?, &screen).map_err(at(path));
     let (found, reference) = (picture(&args.found)?, picture(&args.reference)?);

@@ -2,7 +2,7 @@
 //! each character.
 
 use console::Term;
-use radiosity_renderer::Picture;
+use radiosity_image::Rgb8Image;
 use std::fmt::Write;
 
 /// Shows pictures where the terminal has colours, and nothing elsewhere.
@@ -40,7 +40,7 @@ impl Live {
     }
 
     /// Shows a picture in the place of the last one. A terminal that is gone is no reason to stop.
-    pub(super) fn show(&mut self, picture: &Picture) {
+    pub(super) fn show(&mut self, picture: &Rgb8Image) {
         let Some(terminal) = &self.terminal else {
             return;
         };
@@ -53,7 +53,7 @@ impl Live {
 
 /// A picture of an even number of rows, as characters with escape sequences (ECMA-48, and ISO 8613-6
 /// for colours).
-fn half_blocks(picture: &Picture, has_true_colors: bool) -> String {
+fn half_blocks(picture: &Rgb8Image, has_true_colors: bool) -> String {
     let row_length = 3 * picture.width as usize;
     let mut text = String::new();
     for rows in picture.bytes.chunks_exact(2 * row_length) {
@@ -87,7 +87,7 @@ mod tests {
 
     #[test]
     fn a_character_is_two_pixels() {
-        let picture = Picture {
+        let picture = Rgb8Image {
             width: 1,
             height: 2,
             bytes: vec![255, 0, 128, 0, 0, 0],
@@ -106,6 +106,6 @@ mod tests {
     fn nothing_is_shown_where_nobody_looks() {
         let mut live = Live::new(false);
         assert_eq!(live.size((640, 480)), None);
-        live.show(&Picture::plain(2, 2, [0; 3]));
+        live.show(&Rgb8Image::plain(2, 2, [0; 3]));
     }
 }

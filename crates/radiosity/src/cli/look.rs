@@ -9,7 +9,8 @@ use crate::export::patch_at;
 use crate::pipeline::Quantity;
 use crate::settings::tone_map;
 use radiosity_geometry::Mesh;
-use radiosity_renderer::{ColorScale, Image, LUMINANCE, Shading, Values};
+use radiosity_image::{ColorScale, Image, LUMINANCE, Values};
+use radiosity_renderer::Shading;
 use radiosity_scene::{Mode, Scene};
 use std::f64::consts::PI;
 

@@ -1,9 +1,10 @@
 //! How an image becomes what a screen or a file holds.
 
 use super::look::Number;
-use radiosity_renderer::{
-    ColorScale, DeepPicture, Exposure, Image, Outlines, Picture, ToneMap, Transfer, with_legend,
+use radiosity_image::{
+    ColorScale, Exposure, Image, Rgb8Image, Rgb16Image, ToneMap, Transfer, with_legend,
 };
+use radiosity_renderer::Outlines;
 use std::cell::OnceCell;
 
 /// Which levels numbers have.
@@ -25,7 +26,7 @@ pub(super) struct Print<'a> {
     /// Whether the borders of patches are drawn.
     pub(super) patch_lines: bool,
     /// What a screen shows, once it is asked for.
-    pub(super) shown: OnceCell<Picture>,
+    pub(super) shown: OnceCell<Rgb8Image>,
 }
 
 /// Lines over pictures.
@@ -35,7 +36,7 @@ const FAINT: f32 = 0.3;
 
 impl Palette {
     /// The levels alone, without lines and legend.
-    pub(super) fn paint(&self, image: &Image) -> Picture {
+    pub(super) fn paint(&self, image: &Image) -> Rgb8Image {
         match self {
             Palette::Tones(tone) => tone.apply(image),
             Palette::Colors(scale, number) => scale.paint(&number.of(image)),
@@ -75,11 +76,11 @@ impl Palette {
 
 impl Print<'_> {
     /// What a screen shows.
-    pub(super) fn screen(&self) -> &Picture {
+    pub(super) fn screen(&self) -> &Rgb8Image {
         self.shown.get_or_init(|| self.show())
     }
 
-    fn show(&self) -> Picture {
+    fn show(&self) -> Rgb8Image {
         let mut picture = self.palette.paint(self.image);
         if let Some(outlines) = self.outlines {
             if let Palette::Colors(scale, number) = self.palette
@@ -101,10 +102,10 @@ impl Print<'_> {
     }
 
     /// The same with 16 bits; false colours and lines have no more than 8.
-    pub(super) fn deep_screen(&self) -> DeepPicture {
+    pub(super) fn deep_screen(&self) -> Rgb16Image {
         match self.palette {
-            Palette::Tones(tone) if !self.patch_lines => tone.apply_deep(self.image),
-            _ => self.screen().deepened(),
+            Palette::Tones(tone) if !self.patch_lines => tone.apply16(self.image),
+            _ => self.screen().to_rgb16(),
         }
     }
 

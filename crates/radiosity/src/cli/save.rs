@@ -9,9 +9,9 @@ use crate::pipeline::Pipeline;
 use crate::settings::estimator;
 use radiosity_cache::Store;
 #[cfg(feature = "openexr")]
-use radiosity_renderer::encode_exr;
-use radiosity_renderer::{
-    Picture, PictureFormat, Transfer, encode, encode_deep_png, encode_hdr, encode_pfm,
+use radiosity_image::encode_exr;
+use radiosity_image::{
+    PictureFormat, Rgb8Image, Transfer, encode, encode_hdr, encode_pfm, encode_png16,
 };
 use radiosity_scene::{Light, Scene};
 use std::collections::BTreeMap;
@@ -81,7 +81,11 @@ impl<'a> Folder<'a> {
     }
 
     /// Writes a picture of pictures, as PNG.
-    pub(super) fn save_sheet(&mut self, sheet: &Picture, transfer: Transfer) -> Result<(), Error> {
+    pub(super) fn save_sheet(
+        &mut self,
+        sheet: &Rgb8Image,
+        transfer: Transfer,
+    ) -> Result<(), Error> {
         let path = self.path.join(format!("{}-sheet.png", self.scene));
         let bytes = encode(sheet, PictureFormat::Png(transfer), &self.metadata);
         write(&path, self.cache, &bytes)?;
@@ -98,7 +102,7 @@ impl<'a> Folder<'a> {
             FormatArg::Ppm => levels(PictureFormat::Ppm),
             FormatArg::PlainPpm => levels(PictureFormat::PlainPpm),
             FormatArg::Png => levels(PictureFormat::Png(transfer)),
-            FormatArg::Png16 => encode_deep_png(&print.deep_screen(), transfer, &metadata),
+            FormatArg::Png16 => encode_png16(&print.deep_screen(), transfer, &metadata),
             FormatArg::Pfm => encode_pfm(&print.linear()),
             FormatArg::Hdr => encode_hdr(&print.linear(), &metadata),
             #[cfg(feature = "openexr")]

@@ -9,9 +9,8 @@ use super::view_args::Shot;
 use crate::darkness;
 use crate::error::Error;
 use crate::pipeline::{PatchLight, Pipeline, Quantity};
-use radiosity_renderer::{
-    Image, Outlines, Picture, Renderer, Shading, Transfer, contact_sheet, thumbnail_width,
-};
+use radiosity_image::{Image, Rgb8Image, Transfer, contact_sheet, thumbnail_width};
+use radiosity_renderer::{Outlines, Renderer, Shading};
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
 
@@ -29,7 +28,7 @@ pub(super) struct Series<'a> {
 /// What goes on the sheet.
 #[derive(Default)]
 pub(super) struct Sheet {
-    pictures: Vec<(String, Picture)>,
+    pictures: Vec<(String, Rgb8Image)>,
     /// Of the first picture; the others are shown by it.
     transfer: Option<Transfer>,
 }

@@ -8,7 +8,8 @@ use crate::resources::check_image;
 use crate::settings;
 use radiosity_form_factors::FormFactors;
 use radiosity_geometry::Camera;
-use radiosity_renderer::{Fields, Image, ImageParams, Renderer, Shading, ShadingParams};
+use radiosity_image::Image;
+use radiosity_renderer::{Fields, ImageParams, Renderer, Shading, ShadingParams};
 
 /// What of the light is shown, or of what it was made from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Emitters that are seen whole, from eight points at a time.
 
-use super::{Emitter, Points};
+use super::{Emitter, Receivers};
 use radiosity_geometry::DVec3;
 use radiosity_simd::{Float, Simd, angle};
 use std::f64::consts::TAU;
@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 pub(super) fn clear_factors<S: Simd>(
     simd: S,
     emitter: &Emitter,
-    points: &Points<S::F64>,
+    points: &Receivers<S::F64>,
 ) -> S::F64 {
     let corners = emitter.polygon.corners();
     let mut sum = simd.splat_f64(0.0);
@@ -31,7 +31,7 @@ pub(super) fn clear_factors<S: Simd>(
 
 /// The directions from points to a corner.
 #[inline(always)]
-fn towards<S: Simd>(simd: S, corner: DVec3, points: &Points<S::F64>) -> [S::F64; 3] {
+fn towards<S: Simd>(simd: S, corner: DVec3, points: &Receivers<S::F64>) -> [S::F64; 3] {
     let [x, y, z] = &points.at;
     [
         simd.splat_f64(corner.x) - *x,

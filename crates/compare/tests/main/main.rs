@@ -1,0 +1,4 @@
+//! The measures for pictures and for tables.
+
+mod pictures;
+mod tables;
