@@ -1,13 +1,12 @@
-//! Why pictures are black, and why a scene that is called closed is not.
+//! Why pictures are black.
 
+use crate::lines::named;
 use crate::pipeline::Pipeline;
-use radiosity_geometry::{Backs, Camera, DVec2, DVec3, Face, FaceId, Mesh, Occluders, Ray};
+use radiosity_geometry::{Backs, Camera, DVec2, Face, FaceId, Mesh, Occluders, Ray};
 use radiosity_scene::Scene;
 use radiosity_solver::Energy;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
-/// So many surfaces are named.
-const MOST_NAMED: usize = 6;
 /// Of the light, where more meets backs it is said.
 const MUCH: f64 = 0.5;
 /// Of the light, where more leaves the scene it is said.
@@ -143,67 +142,4 @@ pub(crate) fn of_picture(pipeline: &Pipeline<'_>, camera: &Camera, size: (u32, u
             named(backs)
         )
     }
-}
-
-/// What is wrong with a scene that is called closed, and whose patches see backs or nothing.
-pub(crate) fn openings(scene: &Scene, mesh: &Mesh) -> Option<String> {
-    let mut sides: HashMap<[[u64; 3]; 2], Vec<(usize, bool)>> = HashMap::new();
-    for (index, face) in mesh.faces.iter().enumerate() {
-        let corners = face.polygon.corners();
-        for (k, &from) in corners.iter().enumerate() {
-            let ends = [from, corners[(k + 1) % corners.len()]].map(bits);
-            let is_forward = ends[0] < ends[1];
-            let edge = if is_forward { ends } else { [ends[1], ends[0]] };
-            sides.entry(edge).or_default().push((index, is_forward));
-        }
-    }
-    let name = |face: usize| {
-        scene.surfaces[mesh.faces[face].surface.index()]
-            .name
-            .as_str()
-    };
-    let (mut open, mut against) = (BTreeSet::new(), HashMap::<&str, usize>::new());
-    for faces in sides.values() {
-        match faces[..] {
-            [(face, _)] => {
-                open.insert(name(face));
-            }
-            [(a, of_a), (b, of_b)] if of_a == of_b => {
-                for face in [a, b] {
-                    *against.entry(name(face)).or_default() += 1;
-                }
-            }
-            _ => {}
-        }
-    }
-    if let Some(most) = against.values().copied().max() {
-        let worst = against.iter().filter(|(_, count)| **count == most);
-        let worst = worst.map(|(name, _)| *name).collect();
-        return Some(format!(
-            "{} face the other way than their neighbours: reverse the order of the corners of those that \
-             face outwards",
-            named(worst)
-        ));
-    }
-    (!open.is_empty()).then(|| {
-        format!(
-            "edges of {} have no neighbour: a surface is missing there, or corners do not meet",
-            named(open)
-        )
-    })
-}
-
-fn bits(point: DVec3) -> [u64; 3] {
-    // Adding zero makes one zero of both.
-    (point + 0.0).to_array().map(f64::to_bits)
-}
-
-fn named(names: BTreeSet<&str>) -> String {
-    let count = names.len();
-    let some: Vec<&str> = names.into_iter().take(MOST_NAMED).collect();
-    let more = match count.saturating_sub(MOST_NAMED) {
-        0 => String::new(),
-        more => format!(" and {more} more"),
-    };
-    format!("`{}`{more}", some.join("`, `"))
 }

@@ -39,6 +39,7 @@ mod job;
 mod lines;
 mod machine;
 mod observer;
+mod openings;
 mod pipeline;
 mod plot;
 mod prediction;
