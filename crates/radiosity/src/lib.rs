@@ -32,6 +32,7 @@ mod closed;
 mod darkness;
 mod error;
 mod export;
+mod face_rays;
 mod factor_export;
 mod facts;
 mod inspect;

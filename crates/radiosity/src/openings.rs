@@ -5,10 +5,11 @@ mod edges;
 mod gaps;
 mod turned;
 
+use crate::face_rays::{cosine_rays, spread};
 use crate::lines::named;
 use crate::rows::RowSummary;
 use edges::Edges;
-use radiosity_geometry::Mesh;
+use radiosity_geometry::{FaceId, Mesh, Occluders};
 use radiosity_scene::Scene;
 use std::collections::BTreeSet;
 use turned::Turned;
@@ -17,10 +18,65 @@ use turned::Turned;
 /// known. A few rays may meet an edge.
 const OPEN: f64 = 0.001;
 const TURNED: f64 = 0.02;
+/// From so many faces rays look around, evenly spread.
+const MOST_FACES: usize = 1024;
 
 /// Whether the patches of a closed scene see what they should not.
 pub(crate) fn show_in_rows(rows: &RowSummary) -> bool {
     rows.background > OPEN || rows.exposed_backs > TURNED
+}
+
+/// The same by rays from some of the faces, before there are rows.
+pub(crate) fn show_in_rays(mesh: &Mesh) -> bool {
+    let occluders = Occluders::new(mesh);
+    let covered = mesh.covers.covered().iter().map(|covered| covered.face);
+    let covered: BTreeSet<FaceId> = covered.collect();
+    let ids = (0..mesh.faces.len() as u32).map(FaceId);
+    let is_clear = |id: &FaceId| !mesh.faces[id.index()].is_bare() && !covered.contains(id);
+    let faces: Vec<FaceId> = ids.filter(is_clear).collect();
+    let mut sum = Seen::default();
+    for face in spread(&faces, MOST_FACES) {
+        let seen = Seen::from(mesh, &occluders, face);
+        if !seen.is_hidden() {
+            sum.add(&seen);
+        }
+    }
+    let all = f64::from(sum.fronts + sum.backs + sum.nothing);
+    f64::from(sum.nothing) > OPEN * all || f64::from(sum.backs) > TURNED * all
+}
+
+/// How many rays have met what.
+#[derive(Default)]
+struct Seen {
+    fronts: u32,
+    backs: u32,
+    nothing: u32,
+}
+
+impl Seen {
+    fn from(mesh: &Mesh, occluders: &Occluders, face: FaceId) -> Seen {
+        let mut seen = Seen::default();
+        for ray in cosine_rays(&mesh.faces[face.index()]) {
+            let count = match occluders.first_from(face, &ray) {
+                Some(hit) if hit.front => &mut seen.fronts,
+                Some(_) => &mut seen.backs,
+                None => &mut seen.nothing,
+            };
+            *count += 1;
+        }
+        seen
+    }
+
+    /// Whether they started inside of something, or right under it: all is backs there.
+    fn is_hidden(&self) -> bool {
+        self.fronts == 0 && self.nothing == 0
+    }
+
+    fn add(&mut self, other: &Seen) {
+        self.fronts += other.fronts;
+        self.backs += other.backs;
+        self.nothing += other.nothing;
+    }
 }
 
 /// A line for each kind of fault of a scene that is called closed.

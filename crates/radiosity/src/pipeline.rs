@@ -13,7 +13,7 @@ use radiosity_scene::{Material, Mode, Scene};
 use radiosity_solver::SolveError;
 use std::sync::OnceLock;
 
-mod covers;
+pub(crate) mod covers;
 mod factors;
 mod pictures;
 mod preview;

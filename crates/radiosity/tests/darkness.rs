@@ -33,7 +33,7 @@ const ORDINARY: Room = Room {
     look_at: [1.0, 3.0, 0.5],
 };
 
-fn place(room: &Room) -> Place {
+fn text_of(room: &Room) -> String {
     let quad = |name: &str, corners: [[f64; 3]; 4], material: &str| {
         format!("[[surfaces]]\nname = \"{name}\"\nmaterial = \"{material}\"\nquad = {corners:?}\n")
     };
@@ -51,16 +51,19 @@ fn place(room: &Room) -> Place {
         [1.5, 0.5, 1.0],
     ];
     let walls: String = BOX.iter().map(wall).collect();
-    let text = format!(
+    format!(
         "[camera]\nposition = [1, 1.5, 0.5]\nlook_at = {:?}\nup = [0.1, 0.2, 1]\nvertical_fov = 40\n\
          [image]\nwidth = 12\nheight = 8\n[discretization]\ndivisions = 2\n\
          [materials.white]\nreflectance = 0.5\n[materials.lamp]\nreflectance = 0\nemission = {}\n{walls}{}",
         room.look_at,
         room.emission,
         quad("lamp", lamp, "lamp"),
-    );
+    )
+}
+
+fn place(room: &Room) -> Place {
     let place = Place::new();
-    place.write("room.toml", &text);
+    place.write("room.toml", &text_of(room));
     place
 }
 
@@ -110,6 +113,16 @@ fn scenes_without_light_are_told() {
         let found = said(&place_of(0.0), command);
         assert!(found.contains("warning: nothing emits light"), "{found}");
     }
+    let dimmed = place_of(1.0);
+    dimmed.write(
+        "room.toml",
+        &format!("{}[lights.lamp]\ndim = 0\n", text_of(&ORDINARY)),
+    );
+    let found = said(&dimmed, "check room.toml");
+    assert!(
+        found.contains("warning: all lights are dimmed to nothing"),
+        "{found}"
+    );
     let dark = said(&place_of(1.0), "solve room.toml --no-cache --dim lamp=0");
     assert!(
         dark.contains("warning: all lights are dimmed to nothing"),
@@ -119,8 +132,7 @@ fn scenes_without_light_are_told() {
 
 #[test]
 fn cameras_that_see_nothing_are_told() {
-    let beside = place(&ORDINARY);
-    let text = std::fs::read_to_string(beside.path("room.toml")).unwrap();
+    let (beside, text) = (place(&ORDINARY), text_of(&ORDINARY));
     beside.write(
         "room.toml",
         &text
@@ -153,7 +165,16 @@ fn closed_scenes_with_holes_or_turned_walls_are_told() {
     let lid = ("lid", [4, 6, 7, 5]);
     let mut walls = BOX.to_vec();
     place.write("box.vs3", &scene(&walls));
-    let run = |place: &Place| said(place, "form-factors box.vs3 --no-cache");
+    // What rows tell after the form factors, `check` tells before them, in the same words.
+    let run = |place: &Place| {
+        let warnings = |text: String| -> Vec<String> {
+            let lines = text.lines().filter(|line| line.contains("warning"));
+            lines.map(str::to_owned).collect()
+        };
+        let after = warnings(said(place, "form-factors box.vs3 --no-cache"));
+        assert_eq!(warnings(said(place, "check box.vs3")), after);
+        after.concat()
+    };
     let found = run(&place);
     assert!(
         found.contains("calls itself closed and is not: edges of `back`, `front`, `left`, `right`"),
