@@ -130,6 +130,79 @@ fn scenes_without_light_are_told() {
     );
 }
 
+/// A lamp that is red alone has nothing left once its red is taken.
+#[test]
+fn lights_that_are_tinted_to_nothing_are_told() {
+    let (place, text) = (place(&ORDINARY), text_of(&ORDINARY));
+    let red = text.replace("emission = 1", "emission = [1, 0, 0]");
+    place.write("red.toml", &red);
+    place.write(
+        "tinted.toml",
+        &format!("{red}[lights.lamp]\ntint = [0, 1, 1]\n"),
+    );
+    let expected = "warning: nothing is left of the lights as they are dimmed and tinted";
+    for command in [
+        "solve red.toml --no-cache --tint lamp=0,1,1",
+        "solve tinted.toml --no-cache",
+        "check tinted.toml",
+    ] {
+        let found = said(&place, command);
+        assert!(found.contains(expected), "{command}: {found}");
+    }
+    for command in ["solve red.toml --no-cache", "check red.toml"] {
+        let found = said(&place, command);
+        assert!(!found.contains("warning"), "{command}: {found}");
+    }
+}
+
+/// Of two faces in one plane the smaller one counts, or the later one of equal ones: a shade over all of the
+/// lamp takes its light, one over half of it does not.
+#[test]
+fn covered_lamps_are_told() {
+    let (place, text) = (place(&ORDINARY), text_of(&ORDINARY));
+    let shade = |from: f64| {
+        format!(
+            "{text}[[surfaces]]\nname = \"shade\"\nmaterial = \"white\"\n\
+             quad = [[{from}, 0.5, 1], [{from}, 2.5, 1], [1.5, 2.5, 1], [1.5, 0.5, 1]]\n"
+        )
+    };
+    place.write("whole.toml", &shade(0.5));
+    place.write("half.toml", &shade(1.0));
+    let accurate = "solve whole.toml --no-cache --mode accurate";
+    for command in [accurate, "check whole.toml"] {
+        let found = said(&place, command);
+        assert!(
+            found.contains("warning: other surfaces cover all that emits light"),
+            "{command}: {found}"
+        );
+    }
+    for command in [
+        "solve half.toml --no-cache",
+        "check half.toml",
+        "solve whole.toml --no-cache --mode regular",
+    ] {
+        let found = said(&place, command);
+        assert!(!found.contains("black"), "{command}: {found}");
+    }
+}
+
+/// A lamp that faces out of a room without a ceiling.
+#[test]
+fn light_that_leaves_the_scene_is_told() {
+    let (place, text) = (place(&ORDINARY), text_of(&ORDINARY));
+    let down = "[0.5, 0.5, 1.0], [0.5, 2.5, 1.0], [1.5, 2.5, 1.0], [1.5, 0.5, 1.0]";
+    let up = "[1.5, 0.5, 1.0], [1.5, 2.5, 1.0], [0.5, 2.5, 1.0], [0.5, 0.5, 1.0]";
+    assert!(text.contains(down));
+    place.write("out.toml", &text.replace(down, up));
+    let found = said(&place, "solve out.toml --no-cache");
+    assert!(
+        found.contains("warning: 100 % of the light leaves the scene: lamps may face outwards"),
+        "{found}"
+    );
+    let found = said(&place, "solve room.toml --no-cache");
+    assert!(!found.contains("leaves the scene"), "{found}");
+}
+
 #[test]
 fn cameras_that_see_nothing_are_told() {
     let (beside, text) = (place(&ORDINARY), text_of(&ORDINARY));
