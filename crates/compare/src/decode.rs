@@ -1,9 +1,10 @@
 //! Pictures from files' bytes: EXR, HDR, PFM, PPM and PNG, as linear radiance.
 
+use crate::head::Format;
 use crate::portable;
 use crate::size::{PER_BYTE, SizeError, check_size};
+use image::ImageDecoder;
 use image::codecs::hdr::HdrDecoder;
-use image::{ImageDecoder, ImageError};
 use radiosity_renderer::{Image, Transfer};
 use std::io::Cursor;
 
@@ -61,8 +62,6 @@ impl Screen {
 /// Reads a picture whose format its first bytes tell. Levels become radiance as `screen` says;
 /// OpenEXR, HDR and PFM hold radiance already.
 pub fn decode_picture(bytes: &[u8], screen: &Screen) -> Result<Decoded, DecodeError> {
-    const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
-    const EXR: &[u8] = b"\x76\x2f\x31\x01";
     let linear = |image| Decoded {
         image,
         levels: false,
@@ -71,41 +70,46 @@ pub fn decode_picture(bytes: &[u8], screen: &Screen) -> Result<Decoded, DecodeEr
         image,
         levels: true,
     };
-    if bytes.starts_with(PNG) {
-        png_radiance(bytes, screen).map(shown)
-    } else if bytes.starts_with(EXR) {
+    match Format::of(bytes)? {
+        Format::Png => png_radiance(bytes, screen).map(shown),
         #[cfg(feature = "openexr")]
-        return exr_radiance(bytes).map(linear);
+        Format::OpenExr => exr_radiance(bytes).map(linear),
         #[cfg(not(feature = "openexr"))]
-        Err(DecodeError::LeftOut)
-    } else if bytes.starts_with(b"#?RADIANCE") {
-        hdr_radiance(bytes).map(linear)
-    } else if bytes.starts_with(b"PF") || bytes.starts_with(b"Pf") {
-        portable::float_map(bytes).map(linear)
-    } else if bytes.starts_with(b"P3") || bytes.starts_with(b"P6") {
-        portable::pixmap(bytes, |level| screen.radiance(level, None)).map(shown)
-    } else {
-        Err(DecodeError::Unknown)
+        Format::OpenExr => Err(DecodeError::LeftOut),
+        Format::Hdr => hdr_radiance(bytes).map(linear),
+        Format::FloatMap => portable::float_map(bytes).map(linear),
+        Format::Pixmap => portable::pixmap(bytes, |level| screen.radiance(level, None)).map(shown),
     }
 }
 
-fn png_radiance(bytes: &[u8], screen: &Screen) -> Result<Image, DecodeError> {
-    let broken = |error: png::DecodingError| DecodeError::Broken {
-        format: "PNG",
+/// Says what is wrong with a file of a format.
+fn broken<E: std::fmt::Display>(format: &'static str) -> impl Fn(E) -> DecodeError {
+    move |error| DecodeError::Broken {
+        format,
         problem: error.to_string(),
-    };
+    }
+}
+
+/// Behind the head of a PNG, of a size that is read.
+pub(crate) fn png_reader(bytes: &[u8]) -> Result<png::Reader<Cursor<&[u8]>>, DecodeError> {
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::EXPAND);
     // Of no use here, and packed as well.
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
-    let mut reader = decoder.read_info().map_err(broken)?;
-    let own = own_transfer(reader.info());
-    let (width, height) = (reader.info().width, reader.info().height);
+    let reader = decoder.read_info().map_err(broken("PNG"))?;
+    let (width, height) = reader.info().size();
     check_size((width.into(), height.into()), bytes, PER_BYTE)?;
+    Ok(reader)
+}
+
+fn png_radiance(bytes: &[u8], screen: &Screen) -> Result<Image, DecodeError> {
+    let mut reader = png_reader(bytes)?;
+    let own = own_transfer(reader.info());
+    let (width, height) = reader.info().size();
     let size = reader.output_buffer_size().ok_or(DecodeError::Unknown)?;
     let mut data = vec![0; size];
-    let info = reader.next_frame(&mut data).map_err(broken)?;
+    let info = reader.next_frame(&mut data).map_err(broken("PNG"))?;
     let levels: fn(&[u8]) -> f64 = match info.bit_depth {
         png::BitDepth::Sixteen => |two| f64::from(u16::from_be_bytes([two[0], two[1]])) / 65535.0,
         _ => |one| f64::from(one[0]) / 255.0,
@@ -140,19 +144,23 @@ fn own_transfer(info: &png::Info<'_>) -> Option<Transfer> {
     }
 }
 
+/// The heads of the layers of an OpenEXR file, of sizes that are read.
+#[cfg(feature = "openexr")]
+pub(crate) fn exr_headers(bytes: &[u8]) -> Result<exr::meta::Headers, DecodeError> {
+    let meta = exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false);
+    let headers = meta.map_err(broken("OpenEXR"))?.headers;
+    for header in &headers {
+        let size = header.layer_size;
+        check_size((size.width() as u64, size.height() as u64), bytes, PER_BYTE)?;
+        check_blocks(header, bytes)?;
+    }
+    Ok(headers)
+}
+
 #[cfg(feature = "openexr")]
 fn exr_radiance(bytes: &[u8]) -> Result<Image, DecodeError> {
     use exr::prelude::{ReadChannels, ReadLayers, read};
-    let broken = |error: exr::error::Error| DecodeError::Broken {
-        format: "OpenEXR",
-        problem: error.to_string(),
-    };
-    let meta = exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false);
-    for header in meta.map_err(broken)?.headers {
-        let size = header.layer_size;
-        check_size((size.width() as u64, size.height() as u64), bytes, PER_BYTE)?;
-        check_blocks(&header, bytes)?;
-    }
+    exr_headers(bytes)?;
     let set = |image: &mut Image, at: exr::math::Vec2<usize>, (r, g, b): (f32, f32, f32)| {
         let index = at.y() * image.width as usize + at.x();
         image.pixels[index] = [r, g, b];
@@ -168,7 +176,7 @@ fn exr_radiance(bytes: &[u8]) -> Result<Image, DecodeError> {
         .all_attributes()
         .non_parallel()
         .from_buffered(Cursor::new(bytes))
-        .map_err(broken)?;
+        .map_err(broken("OpenEXR"))?;
     Ok(image.layer_data.channel_data.pixels)
 }
 
@@ -191,16 +199,19 @@ fn check_blocks(header: &exr::meta::header::Header, bytes: &[u8]) -> Result<(), 
     })
 }
 
-fn hdr_radiance(bytes: &[u8]) -> Result<Image, DecodeError> {
-    let broken = |error: ImageError| DecodeError::Broken {
-        format: "HDR",
-        problem: error.to_string(),
-    };
-    let decoder = HdrDecoder::new(Cursor::new(bytes)).map_err(broken)?;
+/// Behind the head of a Radiance picture, of a size that is read.
+pub(crate) fn hdr_decoder(bytes: &[u8]) -> Result<HdrDecoder<Cursor<&[u8]>>, DecodeError> {
+    let decoder = HdrDecoder::new(Cursor::new(bytes)).map_err(broken("HDR"))?;
     let (width, height) = decoder.dimensions();
     check_size((width.into(), height.into()), bytes, PER_BYTE)?;
+    Ok(decoder)
+}
+
+fn hdr_radiance(bytes: &[u8]) -> Result<Image, DecodeError> {
+    let decoder = hdr_decoder(bytes)?;
+    let (width, height) = decoder.dimensions();
     let mut image = Image::black(width, height);
     let data = bytemuck::cast_slice_mut(&mut image.pixels);
-    decoder.read_image(data).map_err(broken)?;
+    decoder.read_image(data).map_err(broken("HDR"))?;
     Ok(image)
 }

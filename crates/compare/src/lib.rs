@@ -11,6 +11,7 @@
 mod decode;
 mod difference;
 mod errors;
+mod head;
 mod pictures;
 mod portable;
 mod regions;
@@ -22,6 +23,7 @@ mod tables;
 pub use decode::{DecodeError, Decoded, Screen, decode_picture};
 pub use difference::{DifferencePicture, difference_picture};
 pub use errors::{Errors, Percentiles};
+pub use head::picture_size;
 pub use pictures::{PictureError, compare_pictures};
 pub use regions::{Regions, RegionsError, decode_regions};
 pub use size::SizeError;
