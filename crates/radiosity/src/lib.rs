@@ -46,6 +46,7 @@ mod plot;
 mod prediction;
 mod report;
 mod resources;
+mod row_columns;
 mod rows;
 mod settings;
 mod solve_report;
