@@ -1,6 +1,7 @@
 //! Linear images from files' bytes: EXR, HDR, PFM, PPM and PNG.
 
 mod hdr;
+mod head;
 #[cfg(feature = "openexr")]
 mod openexr;
 mod png;
@@ -10,6 +11,8 @@ mod size;
 
 use crate::image::Image;
 use crate::tone::Transfer;
+use head::Format;
+pub use head::picture_size;
 pub use regions::{Regions, RegionsError, decode_regions};
 pub use size::SizeError;
 
@@ -93,8 +96,6 @@ impl DecodeParams {
 /// # Ok::<(), radiosity_image::DecodeError>(())
 /// ```
 pub fn decode_picture(bytes: &[u8], params: &DecodeParams) -> Result<Decoded, DecodeError> {
-    const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
-    const EXR: &[u8] = b"\x76\x2f\x31\x01";
     let linear = |image| Decoded {
         image,
         levels: false,
@@ -103,20 +104,16 @@ pub fn decode_picture(bytes: &[u8], params: &DecodeParams) -> Result<Decoded, De
         image,
         levels: true,
     };
-    if bytes.starts_with(PNG) {
-        png::decode(bytes, params).map(of_levels)
-    } else if bytes.starts_with(EXR) {
+    match Format::of(bytes)? {
+        Format::Png => png::decode(bytes, params).map(of_levels),
         #[cfg(feature = "openexr")]
-        return openexr::decode(bytes).map(linear);
+        Format::OpenExr => openexr::decode(bytes).map(linear),
         #[cfg(not(feature = "openexr"))]
-        Err(DecodeError::LeftOut)
-    } else if bytes.starts_with(b"#?RADIANCE") {
-        hdr::decode(bytes).map(linear)
-    } else if bytes.starts_with(b"PF") || bytes.starts_with(b"Pf") {
-        portable::float_map(bytes).map(linear)
-    } else if bytes.starts_with(b"P3") || bytes.starts_with(b"P6") {
-        portable::pixmap(bytes, |level| params.radiance(level, None)).map(of_levels)
-    } else {
-        Err(DecodeError::Unknown)
+        Format::OpenExr => Err(DecodeError::LeftOut),
+        Format::Hdr => hdr::decode(bytes).map(linear),
+        Format::FloatMap => portable::float_map(bytes).map(linear),
+        Format::Pixmap => {
+            portable::pixmap(bytes, |level| params.radiance(level, None)).map(of_levels)
+        }
     }
 }

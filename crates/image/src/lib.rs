@@ -54,7 +54,7 @@ mod tone;
 pub use contact_sheet::{contact_sheet, thumbnail_width};
 pub use decode::{
     DecodeError, DecodeParams, Decoded, Regions, RegionsError, SizeError, decode_picture,
-    decode_regions,
+    decode_regions, picture_size,
 };
 #[cfg(feature = "openexr")]
 pub use encode::encode_exr;

@@ -13,6 +13,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::iter;
 use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// What a checkpoint holds.
@@ -24,6 +25,8 @@ pub(crate) struct Finished {
     pub(crate) begun: Vec<Begun>,
     /// What is known of all of these.
     pub(crate) tally: Tally,
+    /// How many pairs of them are estimated.
+    pub(crate) pairs: u64,
 }
 
 /// Estimates the rows that are missing.
@@ -92,7 +95,13 @@ impl<'a> Batches<'a> {
 
     /// Estimates rows until time is over, those that are begun first, and gives those that are finished.
     fn estimate(&mut self) -> Vec<Vec<f32>> {
-        let Finished { rows, begun, tally } = &mut self.finished;
+        let Finished {
+            rows,
+            begun,
+            tally,
+            pairs: estimated,
+        } = &mut self.finished;
+        let more = AtomicU64::new(0);
         let (estimation, size, start) = (self.estimation, &self.size, Instant::now());
         let pairs = |rows: Range<usize>| packed_len(rows.end) - packed_len(rows.start);
         let mut waiting = std::mem::take(begun).into_iter();
@@ -108,12 +117,16 @@ impl<'a> Batches<'a> {
             Some(next)
         });
         let go_on = |mut rows: Begun| {
-            let advance = |pairs| self.observer.advance(pairs);
+            let advance = |pairs| {
+                more.fetch_add(pairs, Ordering::Relaxed);
+                self.observer.advance(pairs);
+            };
             let is_time = || start.elapsed() >= self.time;
             let is_finished = estimation.go_on(&mut rows, tally, &advance, &is_time);
             (is_finished, rows)
         };
         let mut made: Vec<(bool, Begun)> = next.par_bridge().map(go_on).collect();
+        *estimated += more.into_inner();
         made.sort_unstable_by_key(|(_, of)| of.rows.start);
         let finished = made.iter().take_while(|(is_finished, _)| *is_finished);
         let rest = made.split_off(finished.count());
@@ -220,8 +233,10 @@ mod tests {
                 rows: 0,
                 begun: Vec::new(),
                 tally: Tally::new(mesh.patches.len()),
+                pairs: 0,
             };
             let (mut values, mut parts) = (Vec::new(), 0);
+            let mut has_counted_begun_rows = false;
             loop {
                 let mut batches = Batches::after(finished.clone(), &estimation, &Silent);
                 batches.time = Duration::ZERO;
@@ -231,9 +246,15 @@ mod tests {
                 values.extend(batch.values.concat());
                 finished = batch.state.expect("a checkpoint behind each");
                 assert_eq!(values.len(), packed_len(finished.rows as usize));
+                let begun: usize = finished.begun.iter().map(|rows| rows.values.len()).sum();
+                let known = values.len()..=values.len() + begun;
+                assert!(known.contains(&(finished.pairs as usize)));
+                has_counted_begun_rows |= finished.pairs as usize > values.len();
                 parts += 1;
             }
             assert!(parts > 10, "{parts}");
+            assert!(has_counted_begun_rows);
+            assert_eq!(finished.pairs as usize, values.len());
             assert!(values == whole.exchange.values(), "{threads} threads");
             let exchange = radiosity_matrix::SymmetricMatrix::new(mesh.patches.len(), values);
             let completed = estimation.complete(exchange.unwrap(), &finished.tally);

@@ -1,22 +1,19 @@
-//! Why pictures are black, and why a scene that is called closed is not.
+//! Why pictures are black.
 
+use crate::face_rays::{cosine_rays, spread};
+use crate::lines::named;
 use crate::pipeline::Pipeline;
-use radiosity_geometry::{Backs, Camera, DVec2, DVec3, Face, FaceId, Mesh, Occluders, Ray};
-use radiosity_scene::Scene;
+use radiosity_geometry::{Backs, Camera, DVec2, Face, FaceId, Mesh, Occluders, Patch, Ray};
+use radiosity_scene::{Light, Mode, Scene};
 use radiosity_solver::Energy;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
-/// So many surfaces are named.
-const MOST_NAMED: usize = 6;
 /// Of the light, where more meets backs it is said.
 const MUCH: f64 = 0.5;
 /// Of the light, where more leaves the scene it is said.
 const NEARLY_ALL: f64 = 0.99;
 /// So many faces that emit are looked at, evenly spread.
 const MOST_LIGHTS: usize = 64;
-/// Rays from each of them.
-const RAYS_OF_A_LAMP: u32 = 64;
-const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 /// Rays along each edge of a picture.
 const RAYS: u32 = 24;
 
@@ -52,23 +49,22 @@ pub(crate) fn light_lines(pipeline: &Pipeline<'_>, energy: &Energy) -> Vec<Strin
     is_lost.then_some(warning).into_iter().collect()
 }
 
+/// Why there is no light at all, if there is none: known without radiosities.
+pub(crate) fn of_scene(scene: &Scene, mesh: &Mesh) -> Option<String> {
+    let shines = |face: &Face| is_lit(scene, face) && !is_covered(scene, mesh, face);
+    let is_dark = !mesh.faces.iter().any(shines);
+    is_dark.then(|| no_light(scene, mesh))
+}
+
 /// Why there is no light at all.
-pub(crate) fn no_light(scene: &Scene, mesh: &Mesh) -> String {
-    let is_out = |factor: [f64; 3]| factor == [0.0; 3];
-    let is_covered = |face: &Face| {
-        let mut covered = mesh.covers.covered().iter();
-        covered.any(|of| std::ptr::eq(&mesh.faces[of.face.index()], face))
-    };
-    let lamps: Vec<&Face> = mesh
-        .faces
-        .iter()
-        .filter(|face| emits(scene, face))
-        .collect();
-    let why = if lamps.is_empty() {
+fn no_light(scene: &Scene, mesh: &Mesh) -> String {
+    let is_out = |light: &Light| light.dimming() == [0.0; 3];
+    let mut faces = mesh.faces.iter();
+    let why = if !faces.clone().any(|face| emits(scene, face)) {
         "nothing emits light"
-    } else if scene.lights.iter().all(|light| is_out(light.dimming())) {
+    } else if scene.lights.iter().all(is_out) {
         "all lights are dimmed to nothing"
-    } else if lamps.iter().all(|face| is_covered(face)) {
+    } else if faces.any(|face| is_lit(scene, face)) {
         "other surfaces cover all that emits light"
     } else {
         "nothing is left of the lights as they are dimmed and tinted"
@@ -76,9 +72,25 @@ pub(crate) fn no_light(scene: &Scene, mesh: &Mesh) -> String {
     format!("warning: {why}; pictures will be black")
 }
 
+/// Whether a face emits with its light undimmed.
 fn emits(scene: &Scene, face: &Face) -> bool {
     let material = scene.material(face.surface, face.input_index);
     material.emission != [0.0; 3] && !face.is_bare()
+}
+
+/// Whether it emits with its light as bright as the scene has it.
+fn is_lit(scene: &Scene, face: &Face) -> bool {
+    let material = scene.material(face.surface, face.input_index);
+    scene.dimmed_emission(material) != [0.0; 3] && !face.is_bare()
+}
+
+/// Whether other faces lie on all of a face, and so take its light. Only the accurate mode heeds it.
+fn is_covered(scene: &Scene, mesh: &Mesh, face: &Face) -> bool {
+    let is_free = |patch: &Patch| match mesh.covers.free_part(&mesh.faces, patch) {
+        Some(pieces) => !pieces.is_empty(),
+        None => true,
+    };
+    scene.form_factors.mode == Mode::Accurate && !mesh.patches[face.patches()].iter().any(is_free)
 }
 
 /// The surfaces whose backs light from lamps meets first.
@@ -89,18 +101,9 @@ fn lit_backs<'a>(pipeline: &'a Pipeline<'_>) -> BTreeSet<&'a str> {
     let lamps: Vec<FaceId> = ids
         .filter(|id| emits(scene, &mesh.faces[id.index()]))
         .collect();
-    let step = lamps.len().div_ceil(MOST_LIGHTS).max(1);
     let mut names = BTreeSet::new();
-    for &lamp in lamps.iter().step_by(step) {
-        let face = &mesh.faces[lamp.index()];
-        let (tangent, bitangent) = face.normal.any_orthonormal_pair();
-        for k in 0..RAYS_OF_A_LAMP {
-            // A spiral (Vogel 1979) over the disk, and up to the half-sphere: by the cosine.
-            let radius = ((f64::from(k) + 0.5) / f64::from(RAYS_OF_A_LAMP)).sqrt();
-            let (sin, cos) = (GOLDEN_ANGLE * f64::from(k)).sin_cos();
-            let up = (1.0 - radius * radius).sqrt();
-            let direction = radius * (cos * tangent + sin * bitangent) + up * face.normal;
-            let ray = Ray::new(face.polygon.centroid(), direction);
+    for lamp in spread(&lamps, MOST_LIGHTS) {
+        for ray in cosine_rays(&mesh.faces[lamp.index()]) {
             if let Some(hit) = occluders.first_from(lamp, &ray).filter(|hit| !hit.front) {
                 let surface = mesh.faces[hit.face.index()].surface;
                 names.insert(scene.surfaces[surface.index()].name.as_str());
@@ -143,67 +146,4 @@ pub(crate) fn of_picture(pipeline: &Pipeline<'_>, camera: &Camera, size: (u32, u
             named(backs)
         )
     }
-}
-
-/// What is wrong with a scene that is called closed, and whose patches see backs or nothing.
-pub(crate) fn openings(scene: &Scene, mesh: &Mesh) -> Option<String> {
-    let mut sides: HashMap<[[u64; 3]; 2], Vec<(usize, bool)>> = HashMap::new();
-    for (index, face) in mesh.faces.iter().enumerate() {
-        let corners = face.polygon.corners();
-        for (k, &from) in corners.iter().enumerate() {
-            let ends = [from, corners[(k + 1) % corners.len()]].map(bits);
-            let is_forward = ends[0] < ends[1];
-            let edge = if is_forward { ends } else { [ends[1], ends[0]] };
-            sides.entry(edge).or_default().push((index, is_forward));
-        }
-    }
-    let name = |face: usize| {
-        scene.surfaces[mesh.faces[face].surface.index()]
-            .name
-            .as_str()
-    };
-    let (mut open, mut against) = (BTreeSet::new(), HashMap::<&str, usize>::new());
-    for faces in sides.values() {
-        match faces[..] {
-            [(face, _)] => {
-                open.insert(name(face));
-            }
-            [(a, of_a), (b, of_b)] if of_a == of_b => {
-                for face in [a, b] {
-                    *against.entry(name(face)).or_default() += 1;
-                }
-            }
-            _ => {}
-        }
-    }
-    if let Some(most) = against.values().copied().max() {
-        let worst = against.iter().filter(|(_, count)| **count == most);
-        let worst = worst.map(|(name, _)| *name).collect();
-        return Some(format!(
-            "{} face the other way than their neighbours: reverse the order of the corners of those that \
-             face outwards",
-            named(worst)
-        ));
-    }
-    (!open.is_empty()).then(|| {
-        format!(
-            "edges of {} have no neighbour: a surface is missing there, or corners do not meet",
-            named(open)
-        )
-    })
-}
-
-fn bits(point: DVec3) -> [u64; 3] {
-    // Adding zero makes one zero of both.
-    (point + 0.0).to_array().map(f64::to_bits)
-}
-
-fn named(names: BTreeSet<&str>) -> String {
-    let count = names.len();
-    let some: Vec<&str> = names.into_iter().take(MOST_NAMED).collect();
-    let more = match count.saturating_sub(MOST_NAMED) {
-        0 => String::new(),
-        more => format!(" and {more} more"),
-    };
-    format!("`{}`{more}", some.join("`, `"))
 }

@@ -2,7 +2,7 @@
 
 use radiosity_cache::{CacheError, Changed};
 use radiosity_geometry::{Divisions, LEAST_SIZE, MeshError, count_patches};
-use radiosity_scene::{Mode, Scene, SceneError};
+use radiosity_scene::{FileKind, Mode, Scene, SceneError};
 use radiosity_solver::SolveError;
 use std::path::PathBuf;
 
@@ -24,10 +24,11 @@ pub enum Error {
     #[error("error: {0}")]
     Input(String),
     /// A picture was asked of a scene without a camera.
-    #[error(
-        "error: the scene has no camera\n   = help: add a [camera] with `position`, `look_at` and `vertical_fov`, or use `solve`"
-    )]
-    NoCamera,
+    #[error("error: the scene has no camera\n   = help: {help}")]
+    NoCamera {
+        /// What to do.
+        help: &'static str,
+    },
     /// The surfaces cannot be cut into patches.
     #[error("error: {0}")]
     Mesh(String),
@@ -76,13 +77,27 @@ impl Error {
             Error::Cache(_) | Error::CacheFolder(_) | Error::Output { .. } => 1,
             Error::Scene(_)
             | Error::NoSuchScene { .. }
-            | Error::NoCamera
+            | Error::NoCamera { .. }
             | Error::Input(_)
             | Error::Mesh(_)
             | Error::Changed(_) => 3,
             Error::Resources { .. } => 4,
             Error::Unsolvable { .. } => 5,
         }
+    }
+
+    /// A picture was asked of a scene without a camera.
+    pub fn no_camera(scene: &Scene) -> Error {
+        let help = match scene.kind {
+            FileKind::Toml => {
+                "add a [camera] with `position`, `look_at` and `vertical_fov`, or use `solve`"
+            }
+            FileKind::View3D => {
+                "a View3D file (.vs3) holds neither camera nor light: use `form-factors`, or write its \
+                 surfaces into a scene file (.toml) with a [camera] and a material that emits"
+            }
+        };
+        Error::NoCamera { help }
     }
 
     /// Names the surface that a mesh error is about.

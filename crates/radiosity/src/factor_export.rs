@@ -6,6 +6,7 @@
 use crate::error::Error;
 use crate::export::{faces_in_input_order, input_order};
 use crate::resources::check_parts;
+use crate::row_columns;
 use radiosity_compare::table_name;
 use radiosity_form_factors::{FormFactors, LumpedFactors, RowFacts};
 use radiosity_geometry::{Face, Mesh};
@@ -201,21 +202,11 @@ impl<'a> FactorTable<'a> {
         let is_cells = self.rows.iter().any(|row| row.cell.is_some());
         let mut columns = vec!["row", "name"];
         columns.extend(is_cells.then_some(["ia", "ib"]).into_iter().flatten());
-        columns.extend([
-            "area",
-            "fronts",
-            "backs",
-            "background",
-            "rays_error",
-            "sky",
-            "error",
-            "visible",
-            "missed",
-        ]);
+        columns.push("area");
+        columns.extend(row_columns::columns(&RowFacts::default(), 0.0).map(|column| column.name));
         columns.extend(dropped.map(|_| "dropped"));
         file.write_record(columns)?;
         for (k, row) in self.rows.iter().enumerate() {
-            let facts = &row.facts;
             let mut record = vec![k.to_string(), row.name.to_string()];
             record.extend(
                 row.cell
@@ -223,23 +214,8 @@ impl<'a> FactorTable<'a> {
                     .flatten()
                     .map(|index| index.to_string()),
             );
-            let sky = match row.area {
-                0.0 => 0.0,
-                _ => 1.0 - facts.fronts - facts.backs,
-            };
-            let RowFacts {
-                fronts,
-                backs,
-                background,
-                rays_error,
-                visible,
-                error,
-                missed,
-            } = *facts;
             record.push(row.area.to_string());
-            record.extend([fronts, backs, background].map(|share| format!("{share:.9}")));
-            record.extend([short(Some(rays_error)), format!("{sky:.9}"), short(error)]);
-            record.extend([format!("{visible:.4}"), short(error.map(|_| missed))]);
+            record.extend(row_columns::columns(&row.facts, row.area).map(|column| column.text()));
             record.extend(dropped.map(|dropped| short(Some(dropped[k]))));
             file.write_record(record)?;
         }

@@ -1,6 +1,7 @@
 //! What the files of the cache hold beside their arrays.
 
 use crate::export::faces_in_input_order;
+use crate::row_columns::is_finite;
 use crate::rows::RowSummary;
 use radiosity_form_factors::{Classes, ClosureFacts, Estimator, FormFactors, RowFacts};
 use radiosity_geometry::{Face, Mesh};
@@ -82,13 +83,13 @@ impl FactorFacts {
             .patches_of_surfaces
             .iter()
             .map(|&count| u64::from(count));
+        let mut rows = self.rows.iter().zip(&self.areas);
         packed_len(patches) == values
             && counts.sum::<u64>() == patches as u64
             && self.exported_as.len() == patches
             && self.areas.len() == patches
-            && self.areas.iter().all(|area| area.is_finite())
             && self.exported_as.iter().all(|&row| (row as usize) < patches)
-            && self.rows.iter().all(is_finite)
+            && rows.all(|(row, area)| area.is_finite() && is_finite(row, *area))
     }
 
     /// The surface of a patch, by its number in the scene.
@@ -112,21 +113,6 @@ impl SolutionFacts {
             && self.report.energies.len() == lights
             && self.rows.largest.1 < (patches as u64).max(1)
     }
-}
-
-/// Whether everything that is known of a row is a number.
-pub(crate) fn is_finite(row: &RowFacts) -> bool {
-    let RowFacts {
-        fronts,
-        backs,
-        background,
-        rays_error,
-        visible,
-        error,
-        missed,
-    } = *row;
-    let known = [fronts, backs, background, rays_error, visible, missed];
-    known.into_iter().chain(error).all(f64::is_finite)
 }
 
 fn exported_as(mesh: &Mesh) -> Vec<u32> {

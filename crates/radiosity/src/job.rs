@@ -61,6 +61,7 @@ impl Job<'_> {
                     rows: 0,
                     begun: Vec::new(),
                     tally: Tally::new(needs.patches),
+                    pairs: 0,
                 };
                 let draft = self.begin_draft(store, id, &blank)?;
                 draft.map(|draft| (draft, nothing))
@@ -69,7 +70,7 @@ impl Job<'_> {
         let Some((mut draft, finished)) = begun else {
             return Ok((self.run_in_memory(&estimation), false));
         };
-        self.begin(&needs, draft.saved(), &estimation);
+        self.begin(&needs, finished.pairs, &estimation);
         let mut batches = Batches::after(finished, &estimation, self.observer);
         let written = draft.extend(&mut batches, &|error, kept| {
             let kept = kept as f64 / needs.pairs as f64;
@@ -145,6 +146,7 @@ impl Job<'_> {
                 let is_end = first == size || estimation.next_rows(first, 0).is_some();
                 is_end
                     && draft.saved() == packed_len(first) as u64
+                    && (draft.saved()..=count).contains(&finished.pairs)
                     && begun.all(|(begun, first)| estimation.has_begun(begun, first))
             };
             let is_whole = resumed.as_ref().is_none_or(fits);

@@ -4,6 +4,10 @@ use crate::resources::{PATCHES, ROWS, SURFACES, counted};
 use crate::rows::{RowSummary, Unbalanced};
 use radiosity_form_factors::Classes;
 use radiosity_scene::Scene;
+use std::collections::BTreeSet;
+
+/// So many surfaces are named.
+const MOST_NAMED: usize = 6;
 
 /// The scene, and into how many patches it is cut.
 pub(crate) fn scene_line(scene: &Scene, patches: usize) -> String {
@@ -103,6 +107,17 @@ pub(crate) fn class_line(Classes { clear, partial }: &Classes, patches: usize) -
         percent(partial.pairs),
         error(partial.error),
     )
+}
+
+/// The names of some surfaces, the first few of them.
+pub(crate) fn named(names: BTreeSet<&str>) -> String {
+    let count = names.len();
+    let some: Vec<&str> = names.into_iter().take(MOST_NAMED).collect();
+    let more = match count.saturating_sub(MOST_NAMED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    format!("`{}`{more}", some.join("`, `"))
 }
 
 pub(crate) fn indented(text: &str) -> String {

@@ -4,16 +4,17 @@ use crate::artifact::Origin;
 use crate::error::Error;
 use crate::facts::{self, CLOSURE, FORM_FACTORS};
 use crate::observer::Observer;
+use crate::row_columns::is_finite;
 use crate::rows::RowSummary;
 use crate::settings;
 use radiosity_cache::{Id, Key, Store};
-use radiosity_form_factors::{self as form_factors, FormFactors, RowFacts};
+use radiosity_form_factors::{self as form_factors, FormFactors};
 use radiosity_geometry::{self as geometry, Mesh};
 use radiosity_scene::{Material, Mode, Scene};
-use radiosity_solver::SolveError;
+use radiosity_solver::{self as solver, SolveError};
 use std::sync::OnceLock;
 
-mod covers;
+pub(crate) mod covers;
 mod factors;
 mod pictures;
 mod solution;
@@ -153,16 +154,15 @@ impl<'a> Pipeline<'a> {
 
     /// Refuses light that single precision does not hold, such as that of a lamp brightened beyond it.
     fn finite(&self, light: PatchLight) -> Result<PatchLight, Error> {
-        let is_bad = |b: &[f32; 3]| b.iter().any(|channel| !channel.is_finite());
-        match light.radiosity.iter().position(is_bad) {
-            Some(patch) => Err(self.of_solver(&SolveError::OutOfRange { patch })),
-            None => Ok(light),
-        }
+        solver::check_radiosities([&light.radiosity[..]])
+            .map_err(|error| self.of_solver(&error))?;
+        Ok(light)
     }
 
     /// Refuses form factors that are no numbers. A file of such rows is not taken from the cache either.
-    fn check_finite(&self, rows: &[RowFacts]) -> Result<(), Error> {
-        let bad = rows.iter().position(|row| !facts::is_finite(row));
+    fn check_finite(&self, FormFactors { rows, areas, .. }: &FormFactors) -> Result<(), Error> {
+        let mut rows = rows.iter().zip(areas);
+        let bad = rows.position(|(row, area)| !is_finite(row, *area));
         bad.map_or(Ok(()), |patch| {
             Err(Error::Unsolvable {
                 problem: format!(

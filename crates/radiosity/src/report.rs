@@ -8,6 +8,7 @@ use crate::lines::{
     class_line, closed_line, closure_line, error_line, indented, missed_line, row_line, scene_line,
     unbalanced_lines,
 };
+use crate::openings;
 use crate::pipeline::{Pipeline, Solved};
 use crate::resources::{bytes, grouped};
 use crate::rows::RowSummary;
@@ -91,10 +92,6 @@ pub(crate) struct RowReport {
     closure: Option<ClosureFacts>,
 }
 
-/// In a closed scene patches see fronts alone, and what is hidden of them sees backs, as far as that is
-/// known. A few rays may meet an edge.
-const OPEN: f64 = 0.001;
-const TURNED: f64 = 0.02;
 /// So many files are told one by one.
 const MOST_TOLD: usize = 12;
 
@@ -151,11 +148,10 @@ impl<'a> Report<'a> {
         }
         if pipeline.scene().closed {
             self.terminal.line(&indented(&closed_line(rows)));
-            let is_open = rows.background > OPEN || rows.exposed_backs > TURNED;
-            if is_open && let Some(why) = darkness::openings(pipeline.scene(), pipeline.mesh()) {
-                self.terminal.line(&indented(&format!(
-                    "warning: the scene calls itself closed and is not: {why}"
-                )));
+            if openings::show_in_rows(rows) {
+                for line in openings::warnings(pipeline.scene(), pipeline.mesh()) {
+                    self.terminal.line(&indented(&line));
+                }
             }
         }
         if let Some(classes) = &rows.classes {

@@ -126,43 +126,46 @@ impl Needs {
 /// Refuses pictures that do not fit into memory.
 pub(crate) fn check_image(width: u32, height: u32) -> Result<(), Error> {
     let needed = u64::from(width) * u64::from(height) * BYTES_PER_PIXEL;
-    match usable_memory() {
-        Some(usable) if needed > usable => Err(Error::Resources {
-            problem: format!(
-                "pictures of {width} x {height} pixels need {} of memory, but only {} can be used",
-                bytes(needed),
-                bytes(usable),
-            ),
-            remedy: "make them smaller (--size)".to_owned(),
-        }),
-        _ => Ok(()),
-    }
+    let what = format!("pictures of {width} x {height} pixels need");
+    check_needed(&what, needed, "make them smaller (--size)")
+}
+
+/// Refuses a picture whose comparison does not fit into memory.
+pub(crate) fn check_comparison(
+    path: &Path,
+    (width, height): (u32, u32),
+    bytes_per_pixel: u64,
+) -> Result<(), Error> {
+    let needed = u64::from(width) * u64::from(height) * bytes_per_pixel;
+    let what = format!(
+        "comparing {} with {width} x {height} pixels needs",
+        path.display()
+    );
+    check_needed(
+        &what,
+        needed,
+        "compare smaller pictures, or the same part of both",
+    )
 }
 
 /// Refuses files that do not fit into memory.
 pub(crate) fn check_file(path: &Path, size: u64) -> Result<(), Error> {
-    match usable_memory() {
-        Some(usable) if size > usable => Err(Error::Resources {
-            problem: format!(
-                "{} has {}, but only {} of memory can be used",
-                path.display(),
-                bytes(size),
-                bytes(usable),
-            ),
-            remedy: "give a smaller file".to_owned(),
-        }),
-        _ => Ok(()),
-    }
+    let what = format!("reading {} needs", path.display());
+    check_needed(&what, size, "give a smaller file")
 }
 
 /// Refuses a matrix between so many parts that does not fit into memory.
 pub(crate) fn check_parts(parts: usize, remedy: &str) -> Result<(), Error> {
-    let needed = 8 * (parts as u64).pow(2);
+    let what = format!("the factors between {} parts need", grouped(parts as u64));
+    check_needed(&what, 8 * (parts as u64).pow(2), remedy)
+}
+
+/// Refuses what needs more memory than there is: a remedy is told.
+fn check_needed(what: &str, needed: u64, remedy: &str) -> Result<(), Error> {
     match usable_memory() {
         Some(usable) if needed > usable => Err(Error::Resources {
             problem: format!(
-                "the factors between {} parts need {} of memory, but only {} can be used",
-                grouped(parts as u64),
+                "{what} {} of memory, but only {} can be used",
                 bytes(needed),
                 bytes(usable),
             ),

@@ -61,6 +61,11 @@ fn surfaces_are_named() {
         warning.contains("warning: `lamp` lies on `ceiling`"),
         "{warning}"
     );
+    for (mode, note) in [("accurate", note), ("regular", warning)] {
+        let line = note.lines().find(|line| line.contains("lies on")).unwrap();
+        let said = place(mode).succeed("check room.toml");
+        assert!(said.contains(line), "{said}");
+    }
 }
 
 /// Of the only picture, by channel.

@@ -33,7 +33,7 @@ const ORDINARY: Room = Room {
     look_at: [1.0, 3.0, 0.5],
 };
 
-fn place(room: &Room) -> Place {
+fn text_of(room: &Room) -> String {
     let quad = |name: &str, corners: [[f64; 3]; 4], material: &str| {
         format!("[[surfaces]]\nname = \"{name}\"\nmaterial = \"{material}\"\nquad = {corners:?}\n")
     };
@@ -51,16 +51,19 @@ fn place(room: &Room) -> Place {
         [1.5, 0.5, 1.0],
     ];
     let walls: String = BOX.iter().map(wall).collect();
-    let text = format!(
+    format!(
         "[camera]\nposition = [1, 1.5, 0.5]\nlook_at = {:?}\nup = [0.1, 0.2, 1]\nvertical_fov = 40\n\
          [image]\nwidth = 12\nheight = 8\n[discretization]\ndivisions = 2\n\
          [materials.white]\nreflectance = 0.5\n[materials.lamp]\nreflectance = 0\nemission = {}\n{walls}{}",
         room.look_at,
         room.emission,
         quad("lamp", lamp, "lamp"),
-    );
+    )
+}
+
+fn place(room: &Room) -> Place {
     let place = Place::new();
-    place.write("room.toml", &text);
+    place.write("room.toml", &text_of(room));
     place
 }
 
@@ -110,6 +113,16 @@ fn scenes_without_light_are_told() {
         let found = said(&place_of(0.0), command);
         assert!(found.contains("warning: nothing emits light"), "{found}");
     }
+    let dimmed = place_of(1.0);
+    dimmed.write(
+        "room.toml",
+        &format!("{}[lights.lamp]\ndim = 0\n", text_of(&ORDINARY)),
+    );
+    let found = said(&dimmed, "check room.toml");
+    assert!(
+        found.contains("warning: all lights are dimmed to nothing"),
+        "{found}"
+    );
     let dark = said(&place_of(1.0), "solve room.toml --no-cache --dim lamp=0");
     assert!(
         dark.contains("warning: all lights are dimmed to nothing"),
@@ -117,10 +130,82 @@ fn scenes_without_light_are_told() {
     );
 }
 
+/// A lamp that is red alone has nothing left once its red is taken.
+#[test]
+fn lights_that_are_tinted_to_nothing_are_told() {
+    let (place, text) = (place(&ORDINARY), text_of(&ORDINARY));
+    let red = text.replace("emission = 1", "emission = [1, 0, 0]");
+    place.write("red.toml", &red);
+    place.write(
+        "tinted.toml",
+        &format!("{red}[lights.lamp]\ntint = [0, 1, 1]\n"),
+    );
+    let expected = "warning: nothing is left of the lights as they are dimmed and tinted";
+    for command in [
+        "solve red.toml --no-cache --tint lamp=0,1,1",
+        "solve tinted.toml --no-cache",
+        "check tinted.toml",
+    ] {
+        let found = said(&place, command);
+        assert!(found.contains(expected), "{command}: {found}");
+    }
+    for command in ["solve red.toml --no-cache", "check red.toml"] {
+        let found = said(&place, command);
+        assert!(!found.contains("warning"), "{command}: {found}");
+    }
+}
+
+/// Of two faces in one plane the smaller one counts, or the later one of equal ones: a shade over all of the
+/// lamp takes its light, one over half of it does not.
+#[test]
+fn covered_lamps_are_told() {
+    let (place, text) = (place(&ORDINARY), text_of(&ORDINARY));
+    let shade = |from: f64| {
+        format!(
+            "{text}[[surfaces]]\nname = \"shade\"\nmaterial = \"white\"\n\
+             quad = [[{from}, 0.5, 1], [{from}, 2.5, 1], [1.5, 2.5, 1], [1.5, 0.5, 1]]\n"
+        )
+    };
+    place.write("whole.toml", &shade(0.5));
+    place.write("half.toml", &shade(1.0));
+    let accurate = "solve whole.toml --no-cache --mode accurate";
+    for command in [accurate, "check whole.toml"] {
+        let found = said(&place, command);
+        assert!(
+            found.contains("warning: other surfaces cover all that emits light"),
+            "{command}: {found}"
+        );
+    }
+    for command in [
+        "solve half.toml --no-cache",
+        "check half.toml",
+        "solve whole.toml --no-cache --mode regular",
+    ] {
+        let found = said(&place, command);
+        assert!(!found.contains("black"), "{command}: {found}");
+    }
+}
+
+/// A lamp that faces out of a room without a ceiling.
+#[test]
+fn light_that_leaves_the_scene_is_told() {
+    let (place, text) = (place(&ORDINARY), text_of(&ORDINARY));
+    let down = "[0.5, 0.5, 1.0], [0.5, 2.5, 1.0], [1.5, 2.5, 1.0], [1.5, 0.5, 1.0]";
+    let up = "[1.5, 0.5, 1.0], [1.5, 2.5, 1.0], [0.5, 2.5, 1.0], [0.5, 0.5, 1.0]";
+    assert!(text.contains(down));
+    place.write("out.toml", &text.replace(down, up));
+    let found = said(&place, "solve out.toml --no-cache");
+    assert!(
+        found.contains("warning: 100 % of the light leaves the scene: lamps may face outwards"),
+        "{found}"
+    );
+    let found = said(&place, "solve room.toml --no-cache");
+    assert!(!found.contains("leaves the scene"), "{found}");
+}
+
 #[test]
 fn cameras_that_see_nothing_are_told() {
-    let beside = place(&ORDINARY);
-    let text = std::fs::read_to_string(beside.path("room.toml")).unwrap();
+    let (beside, text) = (place(&ORDINARY), text_of(&ORDINARY));
     beside.write(
         "room.toml",
         &text
@@ -153,7 +238,16 @@ fn closed_scenes_with_holes_or_turned_walls_are_told() {
     let lid = ("lid", [4, 6, 7, 5]);
     let mut walls = BOX.to_vec();
     place.write("box.vs3", &scene(&walls));
-    let run = |place: &Place| said(place, "form-factors box.vs3 --no-cache");
+    // What rows tell after the form factors, `check` tells before them, in the same words.
+    let run = |place: &Place| {
+        let warnings = |text: String| -> Vec<String> {
+            let lines = text.lines().filter(|line| line.contains("warning"));
+            lines.map(str::to_owned).collect()
+        };
+        let after = warnings(said(place, "form-factors box.vs3 --no-cache"));
+        assert_eq!(warnings(said(place, "check box.vs3")), after);
+        after.concat()
+    };
     let found = run(&place);
     assert!(
         found.contains("calls itself closed and is not: edges of `back`, `front`, `left`, `right`"),

@@ -37,11 +37,17 @@ fn failures_are_explained() {
     let blind = SCENE.split("[image]").nth(1).unwrap();
     place.write("blind.toml", &format!("[image]{blind}"));
     place.write("file", "");
+    place.write(
+        "plate.vs3",
+        "F 3\nV 1 0 0 0\nV 2 1 0 0\nV 3 0 1 0\nS 1 1 2 3 0 0 0 0.9 plate\n",
+    );
     let commands = [
         "render bad.toml",
         "render missing.toml",
         "render nothing",
         "render blind.toml",
+        "render plate.vs3",
+        "reference plate.vs3",
         "render room.toml --patches 900",
         "render room.toml --patches 2000",
         "solve hot.toml --no-cache",

@@ -54,6 +54,27 @@ fn names_do_not_reach_the_terminal_as_commands() {
     assert!(all.contains(r"lamp\u{1b}[7m"), "{all}");
 }
 
+/// What is wrong with the command line is told with the arguments in it.
+#[test]
+fn arguments_do_not_reach_the_terminal_as_commands() {
+    let place = Place::new();
+    let hostile = "x\x1b[41m\x07\r\u{9b}1m\u{202e}";
+    let shown = r"x\u{1b}[41m\u{7}\u{d}\u{9b}1m\u{202e}";
+    for arguments in [
+        vec![hostile.to_owned()],
+        vec!["render".to_owned(), format!("--{hostile}")],
+        vec!["render".to_owned(), format!("--threads={hostile}")],
+        vec!["solve".to_owned(), "--dim".to_owned(), hostile.to_owned()],
+        vec!["solve".to_owned(), format!("--export={hostile}")],
+    ] {
+        let output = place.command("").args(&arguments).output().unwrap();
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{message:?}");
+        assert!(is_plain(&message), "{message:?}");
+        assert!(message.contains(shown), "{arguments:?}: {message:?}");
+    }
+}
+
 #[test]
 fn json_has_the_names_as_they_are() {
     let place = hostile();

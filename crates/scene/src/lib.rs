@@ -30,7 +30,7 @@ pub use image::{Exposure, Gamma, ImageSettings, Standard, Tone};
 pub use input::MeshFiles;
 pub use light::{Light, MOST_DIMMING};
 pub use material::Material;
-pub use scene::{Scene, load, load_with, parse};
+pub use scene::{FileKind, Scene, load, load_with, parse};
 pub use settings::{Automatic, FormFactorSettings, Mode, Relaxation, SolverMethod, SolverSettings};
 pub use source::{SceneError, suggestion};
 pub use surface::Surface;

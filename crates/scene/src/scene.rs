@@ -15,9 +15,20 @@ use radiosity_geometry::{self as geometry, Camera, Divisions, SurfaceId};
 use std::borrow::Cow;
 use std::path::Path;
 
+/// What kind of file a scene comes from: not all say the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileKind {
+    /// TOML.
+    Toml,
+    /// `.vs3` of View3D: surfaces and emittances alone.
+    View3D,
+}
+
 /// Everything that a scene file says.
 #[derive(Clone, Debug)]
 pub struct Scene {
+    /// What kind of file that is.
+    pub kind: FileKind,
     /// The name of its file, without the ending.
     pub name: String,
     /// The shapes of the surfaces.
@@ -152,6 +163,7 @@ fn parse_with(path: &Path, text: &str, mesh_files: MeshFiles) -> Result<Scene, S
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     let lights = keep_used(lights, &mut materials, &surfaces);
     Ok(Scene {
+        kind: FileKind::Toml,
         name: name.into_owned(),
         geometry: shapes,
         surfaces,

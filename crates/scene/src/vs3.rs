@@ -12,7 +12,7 @@ mod tests;
 
 use crate::image::ImageTable;
 use crate::material::Material;
-use crate::scene::Scene;
+use crate::scene::{FileKind, Scene};
 use crate::settings::{FormFactorTable, SolverTable};
 use crate::source::{Complaint, SceneError, Source};
 use crate::surface::Surface;
@@ -68,6 +68,7 @@ pub(crate) fn parse(source: &Source<'_>) -> Result<Scene, SceneError> {
     }
     let name = source.path.file_stem().unwrap_or_default();
     Ok(Scene {
+        kind: FileKind::View3D,
         name: name.to_string_lossy().into_owned(),
         geometry: shapes,
         surfaces,

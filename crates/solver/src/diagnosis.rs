@@ -122,13 +122,14 @@ fn check_brightness(light: &[Rgb], c: usize) -> Result<(), SolveError> {
     }
 }
 
-/// That a solution is made of numbers: finite ones.
-pub(crate) fn check_radiosities(lights: &[Vec<[f32; 3]>]) -> Result<(), SolveError> {
+/// Refuses radiosities that are no numbers, or larger than single precision holds: each item is a list by
+/// patch.
+pub fn check_radiosities<'a>(
+    lights: impl IntoIterator<Item = &'a [[f32; 3]]>,
+) -> Result<(), SolveError> {
     let is_bad = |b: &[f32; 3]| b.iter().any(|channel| !channel.is_finite());
-    match lights
-        .iter()
-        .find_map(|light| light.iter().position(is_bad))
-    {
+    let mut lights = lights.into_iter();
+    match lights.find_map(|light| light.iter().position(is_bad)) {
         Some(patch) => Err(SolveError::OutOfRange { patch }),
         None => Ok(()),
     }

@@ -31,7 +31,7 @@ mod system;
 mod tests;
 
 pub use convergence::Convergence;
-pub use diagnosis::SolveError;
+pub use diagnosis::{SolveError, check_radiosities};
 pub use energy::Energy;
 pub use gauss_seidel::Relaxation;
 pub use solution::{Solution, relit};

@@ -116,11 +116,11 @@ pub fn solve(
     let (x, sums) = iteration.finish();
     let residual = problem.relative(|k| problem.residual_at(k, &sums[k], &x[k]));
     let lights = problem.to_lights(&x);
-    diagnosis::check_radiosities(&lights)?;
+    diagnosis::check_radiosities(lights.iter().map(Vec::as_slice))?;
     if !converged && residual > diagnosis::WORTHLESS {
         return Err(SolveError::Worthless { residual });
     }
-    diagnosis::check_radiosities(&direct)?;
+    diagnosis::check_radiosities(direct.iter().map(Vec::as_slice))?;
     Ok(Solution {
         report: Convergence {
             method: params.method,

@@ -270,7 +270,7 @@ fn exact_view(scene: &Scene, divisions: u32, truth: &Truth) -> Result<(View, Vec
 fn beside_the_tracer(scene: &Scene, truth: &Truth, view: &View) -> Result<Vec<Figure>, Error> {
     let mut scene = scene.clone();
     scene.image.filter = PixelFilter::Box;
-    let camera = scene.camera.ok_or(Error::NoCamera)?;
+    let camera = scene.camera.ok_or_else(|| Error::no_camera(&scene))?;
     let mut tracer =
         Tracer::new(&scene, &camera, 1).map_err(|error| Error::Mesh(error.to_string()))?;
     let start = Instant::now();

@@ -184,7 +184,10 @@ fn trace(scene: &Scene, seed: u64) -> Result<Image, Error> {
 }
 
 fn tracer(scene: &Scene, seed: u64) -> Result<Tracer<'_>, Error> {
-    let camera = scene.camera.as_ref().ok_or(Error::NoCamera)?;
+    let camera = scene
+        .camera
+        .as_ref()
+        .ok_or_else(|| Error::no_camera(scene))?;
     Tracer::new(scene, camera, seed).map_err(|error| Error::Mesh(error.to_string()))
 }
 

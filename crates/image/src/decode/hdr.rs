@@ -7,14 +7,25 @@ use image::codecs::hdr::HdrDecoder;
 use image::{ImageDecoder, ImageError};
 use std::io::Cursor;
 
+pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), DecodeError> {
+    decoder(bytes).map(|decoder| decoder.dimensions())
+}
+
 pub(super) fn decode(bytes: &[u8]) -> Result<Image, DecodeError> {
-    let decoder = HdrDecoder::new(Cursor::new(bytes)).map_err(|error| broken(&error))?;
+    let decoder = decoder(bytes)?;
     let (width, height) = decoder.dimensions();
-    check_size((width.into(), height.into()), bytes, PER_BYTE)?;
     let mut image = Image::black(width, height);
     let data = bytemuck::cast_slice_mut(&mut image.pixels);
     decoder.read_image(data).map_err(|error| broken(&error))?;
     Ok(image)
+}
+
+/// Behind the head, of a size that is read.
+fn decoder(bytes: &[u8]) -> Result<HdrDecoder<Cursor<&[u8]>>, DecodeError> {
+    let decoder = HdrDecoder::new(Cursor::new(bytes)).map_err(|error| broken(&error))?;
+    let (width, height) = decoder.dimensions();
+    check_size((width.into(), height.into()), bytes, PER_BYTE)?;
+    Ok(decoder)
 }
 
 fn broken(error: &ImageError) -> DecodeError {

@@ -5,19 +5,36 @@ use super::size::{PER_BYTE, check_size};
 use crate::image::Image;
 use exr::error::Error;
 use exr::math::Vec2;
-use exr::meta::MetaData;
 use exr::meta::header::Header;
+use exr::meta::{Headers, MetaData};
 use exr::prelude::{ReadChannels, ReadLayers, read};
 use std::io::Cursor;
 
-/// The first layer that has red, green and blue.
-pub(super) fn decode(bytes: &[u8]) -> Result<Image, DecodeError> {
+/// That of the largest layer.
+pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), DecodeError> {
+    let headers = headers(bytes)?;
+    let sizes = headers.iter().map(|header| header.layer_size);
+    let size = sizes
+        .max_by_key(|size| size.area())
+        .ok_or(DecodeError::Unknown)?;
+    Ok((size.width() as u32, size.height() as u32))
+}
+
+/// The heads of all layers, of sizes that are read.
+fn headers(bytes: &[u8]) -> Result<Headers, DecodeError> {
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false);
-    for header in meta.map_err(|error| broken(&error))?.headers {
+    let headers = meta.map_err(|error| broken(&error))?.headers;
+    for header in &headers {
         let size = header.layer_size;
         check_size((size.width() as u64, size.height() as u64), bytes, PER_BYTE)?;
-        check_blocks(&header, bytes)?;
+        check_blocks(header, bytes)?;
     }
+    Ok(headers)
+}
+
+/// The first layer that has red, green and blue.
+pub(super) fn decode(bytes: &[u8]) -> Result<Image, DecodeError> {
+    headers(bytes)?;
     let image = read()
         .no_deep_data()
         .largest_resolution_level()

@@ -6,17 +6,15 @@ use crate::image::Image;
 use crate::tone::Transfer;
 use std::io::Cursor;
 
+pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), DecodeError> {
+    reader(bytes).map(|reader| reader.info().size())
+}
+
 /// The radiance that levels stand for.
 pub(super) fn decode(bytes: &[u8], params: &DecodeParams) -> Result<Image, DecodeError> {
-    let mut decoder = png::Decoder::new(Cursor::new(bytes));
-    decoder.set_transformations(png::Transformations::EXPAND);
-    // Of no use here, and packed as well.
-    decoder.set_ignore_text_chunk(true);
-    decoder.set_ignore_iccp_chunk(true);
-    let mut reader = decoder.read_info().map_err(|error| broken(&error))?;
+    let mut reader = reader(bytes)?;
     let own = own_transfer(reader.info());
-    let (width, height) = (reader.info().width, reader.info().height);
-    check_size((width.into(), height.into()), bytes, PER_BYTE)?;
+    let (width, height) = reader.info().size();
     let size = reader.output_buffer_size().ok_or(DecodeError::Unknown)?;
     let mut data = vec![0; size];
     let info = reader
@@ -42,6 +40,19 @@ pub(super) fn decode(bytes: &[u8], params: &DecodeParams) -> Result<Image, Decod
         height,
         pixels: pixels.map(pixel).collect(),
     })
+}
+
+/// Behind the head, of a size that is read.
+fn reader(bytes: &[u8]) -> Result<png::Reader<Cursor<&[u8]>>, DecodeError> {
+    let mut decoder = png::Decoder::new(Cursor::new(bytes));
+    decoder.set_transformations(png::Transformations::EXPAND);
+    // Of no use here, and packed as well.
+    decoder.set_ignore_text_chunk(true);
+    decoder.set_ignore_iccp_chunk(true);
+    let reader = decoder.read_info().map_err(|error| broken(&error))?;
+    let (width, height) = reader.info().size();
+    check_size((width.into(), height.into()), bytes, PER_BYTE)?;
+    Ok(reader)
 }
 
 /// The level of a sample of one or two bytes, from 0 to 1.

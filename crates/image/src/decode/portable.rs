@@ -8,6 +8,16 @@ use crate::image::Image;
 const FLOAT_MAP: &str = "PFM";
 const PIXMAP: &str = "PPM";
 
+/// The width and height of a float map.
+pub(crate) fn size_of_float_map(bytes: &[u8]) -> Result<(u32, u32), DecodeError> {
+    Header::after_magic(bytes).size(FLOAT_MAP)
+}
+
+/// The width and height of a pixmap.
+pub(crate) fn size_of_pixmap(bytes: &[u8]) -> Result<(u32, u32), DecodeError> {
+    Header::after_magic(bytes).size(PIXMAP)
+}
+
 /// A float map of three channels, of either byte order; rows come from the bottom up.
 pub(super) fn float_map(bytes: &[u8]) -> Result<Image, DecodeError> {
     let broken = |problem: &str| broken(FLOAT_MAP, problem);
@@ -102,6 +112,13 @@ struct Header<'a> {
 impl<'a> Header<'a> {
     fn new(bytes: &'a [u8]) -> Header<'a> {
         Header { bytes, rest: bytes }
+    }
+
+    /// Behind the word that tells the format.
+    fn after_magic(bytes: &'a [u8]) -> Header<'a> {
+        let mut header = Header::new(bytes);
+        header.token();
+        header
     }
 
     fn token(&mut self) -> Option<&'a str> {

@@ -7,8 +7,7 @@
 //! project hold 2 to 4 a byte, and the smoothest some 20. Without compression no picture of eight
 //! bits holds more than one a byte, so what is refused can be saved in a way that is not.
 
-/// The largest picture that is read in any case: full HD, of either kind. Comparing takes
-/// some 50 bytes a pixel, or 60 with a map of regions.
+/// The largest picture that is read in any case: full HD, of either kind.
 const ALWAYS: u64 = 1920 * 1088;
 /// How many more pixels are read for each byte of the file.
 pub(super) const PER_BYTE: u64 = 32;

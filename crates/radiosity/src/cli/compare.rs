@@ -1,29 +1,21 @@
 //! `compare`: how far one result is from another.
 
+mod pictures;
+
 use super::args::CompareCommand;
 use super::input::read;
 use super::printable;
-use super::run::{check_folder_of, write};
+use super::run::check_folder_of;
 use super::site::Site;
-use super::terminal::{say, say_json, tell};
+use super::terminal::{say, say_json};
 use crate::error::Error;
 use crate::export::{cells, table_mesh};
-use crate::resources::grouped;
-use crate::settings::transfer;
-use radiosity_compare::{
-    Cell, Errors, compare_pictures, compare_tables, difference_picture, parse_table,
-};
-use radiosity_image::{
-    DecodeParams, Decoded, Image, PictureFormat, Transfer, decode_picture, decode_regions, encode,
-    encode_pfm,
-};
-use radiosity_scene::{ImageSettings, Scene, Tone};
+use pictures::pictures;
+use radiosity_compare::{Cell, Errors, compare_tables, parse_table};
+use radiosity_scene::Scene;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-
-/// The curve of pictures that say nothing of theirs.
-const USUAL: Transfer = Transfer::Gamma(2.2);
 
 /// The object that `--json` prints. Fields may be added, but not changed or removed.
 #[derive(Debug, Serialize)]
@@ -82,78 +74,6 @@ pub(crate) fn run(args: &CompareCommand, site: &Site) -> Result<(), Error> {
         Some(path) => say(&path.display().to_string()),
         None => Ok(()),
     }
-}
-
-fn pictures(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Error> {
-    if args.patches.is_some() || args.coarsen.is_some() {
-        let problem = "--patches and --coarsen are for tables, not for pictures";
-        return Err(Error::Input(problem.to_owned()));
-    }
-    let image = scene.map(|scene| &scene.image);
-    let exposure = args
-        .exposure
-        .or(image.and_then(|image| image.exposure.factor()));
-    let screen = DecodeParams {
-        exposure: exposure.unwrap_or(1.0),
-        transfer: args.gamma.map(transfer),
-        default_transfer: image.map_or(USUAL, |image| transfer(image.gamma)),
-    };
-    let picture = |path: &Path| decode_picture(&read(path)?, &screen).map_err(at(path));
-    let (found, reference) = (picture(&args.found)?, picture(&args.reference)?);
-    let is_lost =
-        |image: &ImageSettings| image.tone != Tone::Clamp || image.exposure.factor().is_none();
-    if (found.levels || reference.levels) && args.exposure.is_none() && image.is_some_and(is_lost) {
-        let problem = "the scene's exposure is automatic, or its tone is a curve: levels do not tell \
-                       radiance\n   = help: compare .pfm files, or state the --exposure";
-        return Err(Error::Input(problem.to_owned()));
-    }
-    let map = args.regions.as_deref();
-    let map = map.map(|path| decode_regions(&read(path)?).map_err(at(path)));
-    let map = map.transpose()?;
-    let errors = compare_pictures(&found.image, &reference, map.as_ref(), screen.exposure);
-    let named = errors.map_err(|error| Error::Input(error.to_string()))?;
-    if let Some(path) = &args.difference {
-        write(path, None, &difference(path, &found, &reference))?;
-    }
-    let counted = named.last().map_or(0, |(_, all)| all.values / 3);
-    let clamped = reference.image.pixels.len() - counted;
-    let left_out = match clamped {
-        0 => String::new(),
-        _ => format!(
-            "{} pixels that the reference shows clamped at exposure {}",
-            grouped(clamped as u64),
-            screen.exposure
-        ),
-    };
-    Ok(Compared { named, left_out })
-}
-
-/// The bytes of the picture of differences: linear and signed where the file is a float map.
-fn difference(path: &Path, found: &Decoded, reference: &Decoded) -> Vec<u8> {
-    let (found, reference) = (&found.image, &reference.image);
-    if path.extension().is_some_and(|ending| ending == "pfm") {
-        let pairs = found.pixels.iter().zip(&reference.pixels);
-        let minus = |(f, r): (&[f32; 3], &[f32; 3])| std::array::from_fn(|c| f[c] - r[c]);
-        return encode_pfm(&Image {
-            width: found.width,
-            height: found.height,
-            pixels: pairs.map(minus).collect(),
-        });
-    }
-    let shown = difference_picture(found, reference);
-    if found.pixels == reference.pixels {
-        tell("the pictures are equal");
-    } else {
-        tell(&format!(
-            "red: brighter than the reference, blue: darker; full colour at a difference of {:.3e} W/(m^2 sr)",
-            shown.full_scale
-        ));
-    }
-    encode(
-        &shown.picture,
-        PictureFormat::Png(Transfer::Gamma(2.2)),
-        &[],
-    )
 }
 
 fn tables(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Error> {

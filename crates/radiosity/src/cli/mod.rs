@@ -26,6 +26,7 @@ mod signals;
 mod site;
 mod solver_args;
 pub(crate) mod terminal;
+mod usage;
 mod view_args;
 
 pub use args::{
@@ -39,6 +40,7 @@ pub use run::run;
 pub use show_args::ShowArgs;
 pub use site::Site;
 pub use solver_args::SolveArgs;
+pub use usage::parse_command_line;
 pub use view_args::ViewArgs;
 
 /// For the end of help texts.

@@ -117,7 +117,9 @@ fn picture(
     folder: &Path,
     terminal: &Terminal,
 ) -> Result<Json, Error> {
-    let camera = scene.first_camera().ok_or(Error::NoCamera)?;
+    let camera = scene
+        .first_camera()
+        .ok_or_else(|| Error::no_camera(scene))?;
     let (width, height) = (scene.image.width, scene.image.height);
     check_image(width, height)?;
     let of_mesh = |error| Error::of_mesh(scene, &error);

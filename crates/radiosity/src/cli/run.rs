@@ -25,7 +25,10 @@ use std::process::ExitCode;
 
 /// Runs a command and prints what it has to say; the exit code is 0, or that of the error.
 pub fn run(command: &Command, site: &Site) -> ExitCode {
-    remove_unfinished_on_signals();
+    // A comparison does it when it has something to write: see there.
+    if !matches!(command, Command::Compare(_)) {
+        remove_unfinished_on_signals();
+    }
     if let Some(wish) = InstructionSet::unknown_wish() {
         let best = InstructionSet::current().name();
         tell(&format!(

@@ -93,7 +93,7 @@ impl ViewArgs {
         });
         let mut all: Vec<Shot> = first.chain(others).collect();
         if all.is_empty() {
-            return Err(Error::NoCamera);
+            return Err(Error::no_camera(scene));
         }
         if self.views.is_empty() {
             if self.path.is_none() {

@@ -67,7 +67,7 @@ impl Pipeline<'_> {
             make,
         };
         let (form_factors, mut origin) = obtain(self.cache, self.observer, id, sources, recipe)?;
-        self.check_finite(&form_factors.rows)?;
+        self.check_finite(&form_factors)?;
         origin.bytes = 4 * form_factors.exchange.values().len() as u64;
         origin.seconds = start.elapsed().as_secs_f64();
         let surface = |patch: usize| self.mesh.patches[patch].surface.index();

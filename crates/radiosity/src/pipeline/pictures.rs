@@ -56,7 +56,10 @@ impl Pipeline<'_> {
     /// Pictures of what patches shine with as the scene's first camera sees it, by each of some
     /// shadings, in that order.
     pub fn pictures(&self, light: &PatchLight, shadings: &[Shading]) -> Result<Vec<Image>, Error> {
-        let camera = self.scene.first_camera().ok_or(Error::NoCamera)?;
+        let camera = self
+            .scene
+            .first_camera()
+            .ok_or_else(|| Error::no_camera(self.scene))?;
         let shown = self.shown(light, Quantity::Radiosity)?;
         self.look(&self.renderer(&shown, shadings), &camera)
     }
