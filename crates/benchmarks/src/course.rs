@@ -4,7 +4,7 @@
 //! column by column, with a colour for each patch. Loops and precision are the course's; the words
 //! are ours.
 
-use super::best_seconds;
+use crate::timing::best_seconds;
 use radiosity::form_factors::FormFactors;
 
 const SWEEPS: u32 = 40;
@@ -13,7 +13,7 @@ const FEW: u32 = 3;
 const LARGE: usize = 10_000;
 
 /// What 40 sweeps take on one thread, each as long as the shortest.
-pub(super) fn seconds(made: &FormFactors) -> f64 {
+pub(crate) fn seconds(made: &FormFactors) -> f64 {
     let patches = made.areas.len();
     let total: f64 = made.areas.iter().sum();
     let mut factors = vec![0.0; patches * patches];

@@ -1,12 +1,12 @@
 //! The closed box of 313 rectangles, cut finer.
 
-use super::vs3::{Point, Scene, cells};
+use crate::vs3::{Point, Scene, cells};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::path::Path;
 
 /// How many rectangles it has before it is cut.
-pub(crate) const PARENTS: u32 = 313;
+pub const PARENTS: u32 = 313;
 
 type Rectangle = [Point; 4];
 
@@ -17,7 +17,7 @@ const CUBOID: [(f64, f64); 3] = [(10.0, 30.0), (0.0, 40.0), (80.0, 100.0)];
 const PLATE: f64 = 4.0;
 
 /// The text of the scene.
-pub(crate) fn vs3(root: &Path, elements: u32, obstacles: u32) -> Result<String, String> {
+pub fn vs3(root: &Path, elements: u32, obstacles: u32) -> Result<String, String> {
     let cuts = f64::from(elements / PARENTS).sqrt().round() as u32;
     if elements == 0 || PARENTS * cuts * cuts != elements {
         return Err(format!(

@@ -1,32 +1,27 @@
-//! How fast pictures are, and how near the truth: beside the course's loop and a path tracer.
+//! Pictures with exact direct light and gathered ones, beside the truth and a path tracer.
 
-use super::{Figure, Target, best_seconds, course, course_display, form_factors};
-use radiosity::compare::{Decoded, Screen, compare_pictures, decode_picture, decode_regions};
+use super::{RUNS, figure};
+use crate::figure::{Figure, Target};
+use crate::timing::best_seconds;
+use radiosity::compare::{
+    Decoded, Regions, Screen, compare_pictures, decode_picture, decode_regions,
+};
 use radiosity::geometry::{Divisions, PixelFilter};
 use radiosity::reference::Tracer;
-use radiosity::renderer::{Image, PictureFormat, Shading, ToneMap, Transfer, encode};
-use radiosity::scene::{Mode, Scene, load};
+use radiosity::renderer::{Image, Shading, Transfer};
+use radiosity::scene::{Mode, Scene};
 use radiosity::{Error, Pipeline, Silent, Sources};
 use std::path::Path;
 use std::time::Instant;
 
-const BOTH: [Shading; 2] = [Shading::Constant, Shading::Smooth];
-/// How often pictures are timed.
-const RUNS: u32 = 5;
-/// Patches along each edge whose pictures with exact direct light are shown, and the tolerance of
-/// their form factors.
-const SIZES: [u32; 3] = [12, 24, 48];
+/// Of the form factors.
 const TOLERANCE: f64 = 0.01;
 /// The size that is promised to be within a percent.
-const GOOD: u32 = 24;
+pub(super) const GOOD: u32 = 24;
 /// Passes of the path tracer, of four samples a pixel, that tell its speed.
 const PASSES: u32 = 4;
 
-/// Patches along each edge that light is gathered from.
-const GATHERED: [u32; 2] = [12, 24];
-
-const TIMES_THE_COURSE: f64 = 25.0;
-const WHOLE_RUN: f64 = 110.0;
+/// Percent, seconds and times that are promised.
 const PERCENT: f64 = 1.0;
 const GATHERED_PERCENT: f64 = 0.6;
 const VIEW_SECONDS: f64 = 0.5;
@@ -35,131 +30,18 @@ const TIMES_THE_TRACER: f64 = 50.0;
 /// Million vertices of paths per second and thread.
 const TRACER_RATE: f64 = 5.0;
 
-pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
-    let scene = load(&root.join("scenes/cornell.toml"))?;
-    let mut figures = beside_the_course(&scene)?;
-    super::show(&figures, json);
-    figures.clear();
-    let truth = Truth::read(root)?;
-    let mut errors = Vec::new();
-    for divisions in SIZES {
-        let (found, more) = exact_view(&scene, divisions, &truth)?;
-        errors.push((divisions, found));
-        figures.extend(more);
-    }
-    let good = errors.iter().find(|(divisions, _)| *divisions == GOOD);
-    let view = good.map(|(_, view)| view).expect("it is one of the sizes");
-    for divisions in GATHERED {
-        figures.extend(gathered_view(&scene, divisions, &truth)?);
-    }
-    figures.extend(beside_the_tracer(&scene, &truth, view)?);
-    super::show(&figures, json);
-    Ok(())
-}
-
-fn figure(name: &str, value: f64, unit: &'static str, target: Option<Target>) -> Figure {
-    Figure::new(format!("display.{name}"), Some(value), unit, target)
-}
-
-/// Both pictures of the course, and its whole run.
-fn beside_the_course(scene: &Scene) -> Result<Vec<Figure>, Error> {
-    let pipeline = Pipeline::new(scene, None, &Silent)?;
-    let made = pipeline.form_factors(Sources::Cached)?.form_factors;
-    let light = pipeline.solution(Sources::Cached)?.light;
-    let ours = best_seconds(RUNS, || {
-        std::hint::black_box(pipeline.pictures(&light, &BOTH).is_ok());
-    });
-    let mesh = pipeline.mesh();
-    let course = best_seconds(1, || {
-        for is_smooth in [false, true] {
-            std::hint::black_box(course_display::render(mesh, &light.radiosity, is_smooth));
-        }
-    });
-    let course_factors = form_factors::baseline_seconds(mesh);
-    let whole = course + course_factors + course::seconds(&made);
-    let folder = tempfile::tempdir().map_err(|error| Error::Output {
-        path: std::env::temp_dir(),
-        error,
-    })?;
-    let mut problem = None;
-    let cold = best_seconds(RUNS, || problem = cold_run(scene, folder.path()).err());
-    if let Some(problem) = problem {
-        return Err(problem);
-    }
-    let most = Some(Target::AtLeast(TIMES_THE_COURSE));
-    Ok(vec![
-        figure(
-            "both.seconds",
-            ours,
-            "s, 640 x 480 x 16 samples, all threads",
-            None,
-        ),
-        figure(
-            "both.course",
-            course,
-            "s, the course's loop, one thread",
-            None,
-        ),
-        figure(
-            "both.speedup",
-            course / ours,
-            "times the course's loop",
-            most,
-        ),
-        figure(
-            "run.seconds",
-            cold,
-            "s from the scene to both pictures as PPM and PNG",
-            None,
-        ),
-        figure(
-            "run.course",
-            whole,
-            "s, the course's three loops, one thread",
-            None,
-        ),
-        figure(
-            "run.speedup",
-            whole / cold,
-            "times the course's loops",
-            Some(Target::AtLeast(WHOLE_RUN)),
-        ),
-    ])
-}
-
-/// Everything that `render` does without a cache, but for words.
-fn cold_run(scene: &Scene, folder: &Path) -> Result<(), Error> {
-    let pipeline = Pipeline::new(scene, None, &Silent)?;
-    let light = pipeline.solution(Sources::Cached)?.light;
-    let pictures = pipeline.pictures(&light, &BOTH)?;
-    let transfer = Transfer::Gamma(2.2);
-    let tone = ToneMap::clamped(scene.image.exposure.factor().unwrap_or(1.0), transfer);
-    for (name, image) in ["constant", "smooth"].into_iter().zip(&pictures) {
-        let shown = tone.apply(image);
-        for (ending, format) in [
-            ("ppm", PictureFormat::Ppm),
-            ("png", PictureFormat::Png(transfer)),
-        ] {
-            let path = folder.join(format!("{name}.{ending}"));
-            let written = std::fs::write(&path, encode(&shown, format, &[]));
-            written.map_err(|error| Error::Output { path, error })?;
-        }
-    }
-    Ok(())
-}
-
 fn unreadable(error: impl std::fmt::Display) -> Error {
     Error::Input(error.to_string())
 }
 
 /// The path-traced picture, and its regions.
-struct Truth {
+pub(super) struct Truth {
     picture: Decoded,
-    regions: radiosity::compare::Regions,
+    regions: Regions,
 }
 
 impl Truth {
-    fn read(root: &Path) -> Result<Truth, Error> {
+    pub(super) fn read(root: &Path) -> Result<Truth, Error> {
         let read = |name: &str| {
             let path = root.join("tests/data").join(name);
             std::fs::read(&path)
@@ -189,7 +71,7 @@ impl Truth {
 }
 
 /// What a further view takes, and how far it is from the truth.
-struct View {
+pub(super) struct View {
     seconds: f64,
     error: f64,
 }
@@ -204,7 +86,11 @@ fn nearly_exact(scene: &Scene, divisions: u32) -> Scene {
 }
 
 /// All light gathered at samples.
-fn gathered_view(scene: &Scene, divisions: u32, truth: &Truth) -> Result<Vec<Figure>, Error> {
+pub(super) fn gathered_view(
+    scene: &Scene,
+    divisions: u32,
+    truth: &Truth,
+) -> Result<Vec<Figure>, Error> {
     let scene = nearly_exact(scene, divisions);
     let pipeline = Pipeline::new(&scene, None, &Silent)?;
     let light = pipeline.solution(Sources::Cached)?.light;
@@ -233,7 +119,11 @@ fn gathered_view(scene: &Scene, divisions: u32, truth: &Truth) -> Result<Vec<Fig
 }
 
 /// Exact direct light, from nearly exact form factors.
-fn exact_view(scene: &Scene, divisions: u32, truth: &Truth) -> Result<(View, Vec<Figure>), Error> {
+pub(super) fn exact_view(
+    scene: &Scene,
+    divisions: u32,
+    truth: &Truth,
+) -> Result<(View, Vec<Figure>), Error> {
     let scene = nearly_exact(scene, divisions);
     let start = Instant::now();
     let pipeline = Pipeline::new(&scene, None, &Silent)?;
@@ -267,7 +157,11 @@ fn exact_view(scene: &Scene, divisions: u32, truth: &Truth) -> Result<(View, Vec
 }
 
 /// The time that the path tracer takes to the same error: its square falls with the number of samples.
-fn beside_the_tracer(scene: &Scene, truth: &Truth, view: &View) -> Result<Vec<Figure>, Error> {
+pub(super) fn beside_the_tracer(
+    scene: &Scene,
+    truth: &Truth,
+    view: &View,
+) -> Result<Vec<Figure>, Error> {
     let mut scene = scene.clone();
     scene.image.filter = PixelFilter::Box;
     let camera = scene.camera.ok_or(Error::NoCamera)?;

@@ -19,20 +19,20 @@ struct Rectangle {
     normal: DVec3,
 }
 
-pub(super) struct Ray {
-    pub(super) origin: DVec3,
-    pub(super) direction: DVec3,
+pub(crate) struct Ray {
+    pub(crate) origin: DVec3,
+    pub(crate) direction: DVec3,
 }
 
 /// The course's form factor loop over a mesh of parallelograms.
-pub(super) struct Baseline<'a> {
-    pub(super) mesh: &'a Mesh,
+pub(crate) struct Baseline<'a> {
+    pub(crate) mesh: &'a Mesh,
     rectangles: Vec<Rectangle>,
     points: Vec<Vec<DVec3>>,
 }
 
 impl<'a> Baseline<'a> {
-    pub(super) fn new(mesh: &'a Mesh) -> Baseline<'a> {
+    pub(crate) fn new(mesh: &'a Mesh) -> Baseline<'a> {
         let rectangle = |face: &radiosity::geometry::Face| {
             let [a, b, _, d] = *face.polygon.padded_corners();
             Rectangle {
@@ -49,7 +49,7 @@ impl<'a> Baseline<'a> {
     }
 
     /// The sum of the factors of a patch to all patches before it, and the pairs of points.
-    pub(super) fn row(&self, i: usize) -> (f64, u64) {
+    pub(crate) fn row(&self, i: usize) -> (f64, u64) {
         let (mut sum, mut pairs) = (0.0, 0);
         for j in 0..i {
             if self.mesh.patches[i].face != self.mesh.patches[j].face {
@@ -83,7 +83,7 @@ impl<'a> Baseline<'a> {
     }
 
     /// The first rectangle that a ray meets, and where.
-    pub(super) fn closest(&self, ray: &Ray) -> Option<(usize, f64)> {
+    pub(crate) fn closest(&self, ray: &Ray) -> Option<(usize, f64)> {
         let mut closest: Option<(usize, f64)> = None;
         for (k, rectangle) in self.rectangles.iter().enumerate() {
             let nearest = closest.map_or(f64::INFINITY, |(_, t)| t);

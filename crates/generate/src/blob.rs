@@ -1,13 +1,13 @@
 //! A dented ball in a box: a few patches, and many triangles that stand in their way.
 
-use super::vs3::{Point, Scene, cells};
+use crate::vs3::{Point, Scene, cells};
 use std::f64::consts::{PI, TAU};
 
 /// Patches along each edge of the box, which reaches from -2 to 2.
 const CELLS: u32 = 18;
 
 /// The text of the scene, with about so many triangles.
-pub(crate) fn vs3(triangles: u32) -> Result<String, String> {
+pub fn vs3(triangles: u32) -> Result<String, String> {
     if !(8..=4_000_000).contains(&triangles) {
         return Err(format!(
             "a ball of {triangles} triangles: choose 8 to 4,000,000"

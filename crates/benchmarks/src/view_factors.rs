@@ -4,12 +4,13 @@
 //! README are made on, and had an rms error of 3.7e-6 at 313 rectangles. It is not run here: its
 //! figures are constants, and seconds on other machines compare to them only roughly.
 
-use super::{Figure, Target, generated};
-use crate::generate::nested_box;
+use crate::figure::{Figure, Target, show};
+use crate::generated::generated;
 use radiosity::form_factors::{Estimator, FormFactors, estimate};
 use radiosity::geometry::Mesh;
 use radiosity::scene::Scene;
 use radiosity::{By, Error, FactorTable};
+use radiosity_generate::nested_box;
 use std::path::Path;
 use std::time::Instant;
 
@@ -55,14 +56,14 @@ const PROMISE: f64 = 10.0;
 /// Plates in the box, for which there is no exact answer.
 const OBSTACLES: u32 = 200;
 
-pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
+pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
     let exact = exact(root)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     let pool = pool.map_err(|error| Error::Input(format!("cannot start a thread: {error}")))?;
     for size in &SIZES {
         let mut figures = pool.install(|| measure(root, size, &exact))?;
         figures.extend(pool.install(|| among_plates(root, size))?);
-        super::show(&figures, json);
+        show(&figures, json);
     }
     Ok(())
 }

@@ -1,5 +1,8 @@
 //! What the machine can do, and what other instruction sets of it do.
 
+use radiosity::geometry::Divisions;
+use radiosity::scene::load;
+use radiosity::{Error, Pipeline, Silent, Sources};
 use radiosity_simd::{Float, InstructionSet, Kernel, LANES, Simd, dispatch};
 use std::path::Path;
 use std::process::Command;
@@ -8,6 +11,8 @@ use std::time::Instant;
 /// So many sums at once keep all pipes of today's processors busy.
 const SUMS: usize = 16;
 const ROUNDS: u32 = 4_000_000;
+/// Of each instruction set.
+const PROCESSES: u32 = 5;
 
 /// Multiplies and adds in registers, all the time.
 struct Busy;
@@ -32,7 +37,7 @@ impl Kernel for Busy {
 
 /// Multiplications and additions in single precision per second, on one thread. None are fused, as
 /// nowhere in this project.
-pub(super) fn peak() -> f64 {
+pub(crate) fn peak() -> f64 {
     let once = |_| {
         let start = Instant::now();
         std::hint::black_box(dispatch(Busy));
@@ -43,30 +48,40 @@ pub(super) fn peak() -> f64 {
 }
 
 /// The most memory that this process has had, in bytes, where the system tells.
-pub(super) fn most_memory() -> Option<f64> {
+pub(crate) fn most_memory() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
     let kilobytes: f64 = line.split_whitespace().nth(1)?.parse().ok()?;
     Some(1024.0 * kilobytes)
 }
 
-/// The seconds that each instruction set of the machine takes for the form factors of a scene: the best
-/// of several runs of this program.
-pub(super) fn seconds_by_set(scene: &Path, divisions: u32) -> Vec<(&'static str, Option<f64>)> {
-    let run = |set: InstructionSet| {
-        let output = Command::new(std::env::current_exe().ok()?)
-            .args(["form-factors", "--json", "--no-cache", "--patches"])
-            .arg(divisions.to_string())
-            .arg(scene)
-            .env("RADIOSITY_SIMD", set.name())
-            .output()
-            .ok()?;
-        let report: serde_json::Value = serde_json::from_slice(&output.stdout).ok()?;
-        report["stages"]["form_factors"]["seconds"].as_f64()
-    };
+/// The seconds that each instruction set of the machine takes for the form factors of `cornell` by the
+/// regular rule: the best of several processes, since each keeps to one set.
+pub(crate) fn seconds_by_set(divisions: u32) -> Vec<(&'static str, Option<f64>)> {
     let best = |set: InstructionSet| {
-        let runs = (0..5).filter_map(|_| run(set));
+        let runs = (0..PROCESSES).filter_map(|_| seconds_on(set, divisions));
         (set.name(), runs.reduce(f64::min))
     };
     InstructionSet::available().into_iter().map(best).collect()
+}
+
+/// What another process of this program prints, if it does.
+fn seconds_on(set: InstructionSet, divisions: u32) -> Option<f64> {
+    let output = Command::new(std::env::current_exe().ok()?)
+        .args(["regular", &divisions.to_string()])
+        .env("RADIOSITY_SIMD", set.name())
+        .output()
+        .ok()?;
+    let printed = String::from_utf8_lossy(&output.stdout);
+    printed.trim().parse().ok()
+}
+
+/// What the form factors of `cornell` take here and now.
+pub(crate) fn print_regular_seconds(root: &Path, divisions: u32) -> Result<(), Error> {
+    let mut scene = load(&root.join("scenes/cornell.toml"))?;
+    scene.divisions = Divisions::uniform(divisions);
+    let pipeline = Pipeline::new(&scene, None, &Silent)?;
+    let made = pipeline.form_factors(Sources::Cached)?;
+    println!("{}", made.origin.seconds);
+    Ok(())
 }

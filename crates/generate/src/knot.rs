@@ -12,7 +12,7 @@ const RADIUS: f64 = 0.5;
 type Vector = [f64; 3];
 
 /// The knot as an OBJ file of triangles.
-pub(super) fn obj() -> String {
+pub fn obj() -> String {
     let mut text = String::from(
         "# A tube along a trefoil knot, made by `cargo xtask generate knot`\no knot\n",
     );

@@ -1,7 +1,9 @@
 //! How fast form factors are, and what the accurate ones cost, side by side with the course's.
 
-use super::baseline::Baseline;
-use super::{Figure, Target, best_seconds, machine, median};
+use crate::baseline::Baseline;
+use crate::figure::{Figure, Target, show};
+use crate::machine;
+use crate::timing::{best_seconds, median};
 use radiosity::form_factors::{Estimator, estimate};
 use radiosity::geometry::{Divisions, Mesh, subdivide};
 use radiosity::scene::{Mode, Scene, load};
@@ -36,7 +38,7 @@ const ROW_STRIDE: usize = 36;
 const TOLERANCE: f64 = 0.01;
 const CONVERGED: f64 = 3e-5;
 
-pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
+pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
     let mut scene = load(&root.join("scenes/cornell.toml"))?;
     let mesh = cut(&scene, SIZES[0].0)?;
     let baseline = Baseline::new(&mesh);
@@ -57,9 +59,9 @@ pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
         ),
     ];
     figures.extend(of_sizes);
-    figures.extend(instruction_sets(root));
+    figures.extend(instruction_sets());
     figures.extend(accuracy(&mut scene, &baseline)?);
-    super::show(&figures, json);
+    show(&figures, json);
     Ok(())
 }
 
@@ -93,7 +95,7 @@ fn point_pairs(mesh: &Mesh) -> f64 {
 }
 
 /// What the course's loop takes for all rows.
-pub(super) fn baseline_seconds(mesh: &Mesh) -> f64 {
+pub(crate) fn baseline_seconds(mesh: &Mesh) -> f64 {
     point_pairs(mesh) / baseline_rate(&Baseline::new(mesh))
 }
 
@@ -177,14 +179,13 @@ fn sizes(scene: &Scene, baseline: &Baseline<'_>, peak: f64) -> Result<(Vec<Figur
 }
 
 /// The same on each instruction set.
-fn instruction_sets(root: &Path) -> Vec<Figure> {
+fn instruction_sets() -> Vec<Figure> {
     let divisions = SIZES[1].0;
-    let scene = root.join("scenes/cornell.toml");
     let figure = |(set, seconds): (&str, Option<f64>)| {
         let name = format!("form_factors.regular.{divisions}.{set}");
         Figure::new(name, seconds, "s, as a program of its own", None)
     };
-    let seconds = machine::seconds_by_set(&scene, divisions);
+    let seconds = machine::seconds_by_set(divisions);
     seconds.into_iter().map(figure).collect()
 }
 
@@ -238,7 +239,7 @@ fn radiosities(scene: &Scene) -> Result<Vec<[f32; 3]>, Error> {
 }
 
 /// Of the squares of all channels.
-pub(super) fn relative_error(found: &[[f32; 3]], truth: &[[f32; 3]]) -> f64 {
+pub(crate) fn relative_error(found: &[[f32; 3]], truth: &[[f32; 3]]) -> f64 {
     let pairs = || found.as_flattened().iter().zip(truth.as_flattened());
     let squares = |error: fn(f64, f64) -> f64| -> f64 {
         pairs()

@@ -3,11 +3,12 @@
 //! Embree (Debian's `libembree-dev`) is no dependency: `embree.c` is compiled by the system's C compiler
 //! when the bench runs, and left out with a message where that fails.
 
-use super::{Figure, Target, generated};
-use crate::generate::blob;
+use crate::figure::{Figure, Target, show};
+use crate::generated::generated;
 use radiosity::Error;
 use radiosity::form_factors::{Estimator, estimate};
 use radiosity::geometry::{Bundle, DVec3, Mesh, Occluders, Patch, Walls};
+use radiosity_generate::blob;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::path::{Path, PathBuf};
@@ -23,7 +24,7 @@ const PROMISE: f64 = 1.5;
 /// At which the whole stage is timed.
 const TOLERANCE: f64 = 0.01;
 
-pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
+pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
     let text = blob::vs3(TRIANGLES).map_err(Error::Input)?;
     let (_, mesh) = generated("blob.vs3", &text)?;
     let walls = Walls::new(&mesh);
@@ -67,7 +68,7 @@ pub(super) fn run(root: &Path, json: bool) -> Result<(), Error> {
     let seconds = Some(start.elapsed().as_secs_f64());
     let what = "s, all factors of the 1,944 patches";
     figures.push(figure("stage.seconds", seconds, what, None));
-    super::show(&figures, json);
+    show(&figures, json);
     Ok(())
 }
 
@@ -134,7 +135,7 @@ fn compiled(root: &Path) -> Result<PathBuf, String> {
     let output = Command::new("cc")
         .args(["-O3", "-march=native", "-o"])
         .arg(&program)
-        .arg(root.join("xtask/src/bench/embree.c"))
+        .arg(root.join("crates/benchmarks/src/embree.c"))
         .arg("-lembree3")
         .output()
         .map_err(|error| format!("cc: {error}"))?;

@@ -4,7 +4,7 @@
 //! its own, four for each of 2 x 2 sub-pixels at tent-distributed places, each tried against all
 //! rectangles; the patch-constant picture looks up the patch, the smooth one 4 x 4 patches around.
 
-use super::baseline::{Baseline, Ray};
+use crate::baseline::{Baseline, Ray};
 use radiosity::geometry::{DVec3, Grid, Mesh};
 use std::f64::consts::PI;
 
@@ -19,7 +19,7 @@ const FILM_HEIGHT: f64 = 0.5135;
 const NEAR: f64 = 130.0;
 
 /// Renders a picture; returns the sum of its pixels, so that none of it is left out.
-pub(super) fn render(mesh: &Mesh, radiosity: &[[f32; 3]], is_smooth: bool) -> f64 {
+pub(crate) fn render(mesh: &Mesh, radiosity: &[[f32; 3]], is_smooth: bool) -> f64 {
     let scene = Baseline::new(mesh);
     let direction = DIRECTION.normalize();
     let across = DVec3::X * (FILM_HEIGHT * f64::from(SIZE.0) / f64::from(SIZE.1));

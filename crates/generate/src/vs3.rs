@@ -3,23 +3,23 @@
 use std::collections::HashMap;
 use std::fmt::Write;
 
-pub(super) type Point = [f64; 3];
+pub(crate) type Point = [f64; 3];
 
 /// The lines of a scene.
 #[derive(Default)]
-pub(super) struct Scene {
+pub(crate) struct Scene {
     vertex_lines: String,
     surface_lines: String,
     /// By their text: points that are written alike are one.
     vertices: HashMap<String, usize>,
     /// How many surfaces and obstructions there are.
-    pub(super) surfaces: u32,
+    pub(crate) surfaces: u32,
 }
 
 impl Scene {
     /// Adds a surface (`S`) or an obstruction (`O`) of three or four corners; `rest` is what
     /// stands behind them.
-    pub(super) fn add(&mut self, kind: char, corners: &[Point], rest: &str) {
+    pub(crate) fn add(&mut self, kind: char, corners: &[Point], rest: &str) {
         self.surfaces += 1;
         let number = self.surfaces;
         let mut line = format!("{kind} {number}");
@@ -43,7 +43,7 @@ impl Scene {
     }
 
     /// The file.
-    pub(super) fn text(&self, title: &str, closed: bool) -> String {
+    pub(crate) fn text(&self, title: &str, closed: bool) -> String {
         let closed = if closed { "C encl=1\n" } else { "" };
         let (vertices, surfaces) = (&self.vertex_lines, &self.surface_lines);
         format!("T {title}\n{closed}F 3\n{vertices}{surfaces}*\n")
@@ -51,7 +51,7 @@ impl Scene {
 }
 
 /// The cells of a parallelogram, from three of its corners.
-pub(super) fn cells([a, b, d]: [Point; 3], along: u32, across: u32) -> Vec<[Point; 4]> {
+pub(crate) fn cells([a, b, d]: [Point; 3], along: u32, across: u32) -> Vec<[Point; 4]> {
     let at = |i: u32, j: u32| -> Point {
         let (u, v) = (
             f64::from(i) / f64::from(along),
