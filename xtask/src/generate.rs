@@ -1,11 +1,7 @@
-//! `cargo xtask generate`: scenes and meshes that follow a rule.
-
-pub(crate) mod blob;
-mod knot;
-pub(crate) mod nested_box;
-mod vs3;
+//! `cargo xtask generate`: scenes and meshes that follow a rule, as files.
 
 use clap::Subcommand;
+use radiosity_generate::{blob, knot, nested_box};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 

@@ -1,15 +1,14 @@
 //! `cargo xtask`: the command in a checkout, and its chores.
 
-mod bench;
 mod ci;
 mod generate;
 
-use bench::Bench;
 use clap::{Parser, Subcommand};
 use generate::Generated;
 use radiosity::cli::{Command, EXIT_CODES, Site, run};
+use std::ffi::OsString;
 use std::path::Path;
-use std::process::ExitCode;
+use std::process::{self, ExitCode};
 
 /// Renders the scenes of this checkout, and does its chores
 #[derive(Debug, Parser)]
@@ -26,10 +25,11 @@ enum Task {
     /// Run everything that a change must pass: format, lints, docs, tests, a render
     Ci,
     /// Measure what is claimed
+    #[command(disable_help_flag = true)]
     Bench {
-        /// Which claims
-        #[command(subcommand)]
-        what: Bench,
+        /// Which claims, and how to print them: `--help` tells
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<OsString>,
     },
     /// Make a scene or a mesh that follows a rule
     Generate {
@@ -49,8 +49,28 @@ fn main() -> ExitCode {
     };
     match Cli::parse().task {
         Task::Radiosity(command) => run(&command, &Site::checkout(&root)),
-        Task::Bench { what } => bench::run(what, &root),
+        Task::Bench { arguments } => bench(&arguments, &root),
         Task::Ci => ci::run(&root),
         Task::Generate { what } => generate::run(&what, &root),
+    }
+}
+
+/// Runs the package of benches: a program of its own, so that nothing else waits for it to compile.
+fn bench(arguments: &[OsString], root: &Path) -> ExitCode {
+    let status = process::Command::new("cargo")
+        .args(["run", "--quiet", "--release", "--manifest-path"])
+        .arg(root.join("Cargo.toml"))
+        .args(["--package", "radiosity-benchmarks", "--"])
+        .args(arguments)
+        .status();
+    match status {
+        Ok(status) => {
+            let code = status.code().and_then(|code| u8::try_from(code).ok());
+            code.map_or(ExitCode::FAILURE, ExitCode::from)
+        }
+        Err(error) => {
+            eprintln!("error: cannot start cargo: {error}");
+            ExitCode::FAILURE
+        }
     }
 }

@@ -4,22 +4,12 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use radiosity_form_factors::{Estimator, estimate};
-use radiosity_geometry::{DVec3, Divisions, Mesh, Shape, Surface, subdivide};
-
-fn parallelogram(corner: [f64; 3], edge_a: [f64; 3], edge_b: [f64; 3]) -> Surface {
-    Surface {
-        shape: Shape::Parallelogram {
-            corner: DVec3::from(corner),
-            edge_a: DVec3::from(edge_a),
-            edge_b: DVec3::from(edge_b),
-        },
-        divisions: None,
-    }
-}
+use radiosity_geometry::{Divisions, Mesh, Surface, subdivide};
+use radiosity_test_kit::{cut, parallelogram, surface, surfaces};
 
 /// A closed room with a screen across half of it.
 fn room() -> Mesh {
-    let surfaces = [
+    let shapes = [
         parallelogram([0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 2.0, 0.0]),
         parallelogram([0.0, 0.0, 4.0], [3.0, 0.0, 0.0], [0.0, 0.0, -4.0]),
         parallelogram([0.0, 2.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, 4.0]),
@@ -28,22 +18,22 @@ fn room() -> Mesh {
         parallelogram([3.0, 0.0, 4.0], [-3.0, 0.0, 0.0], [0.0, 2.0, 0.0]),
         parallelogram([1.0, 0.0, 2.1], [1.5, 0.0, 0.0], [0.0, 1.2, 0.0]),
     ];
-    subdivide(&surfaces, Divisions::uniform(6)).expect("the room is well-formed")
+    cut(shapes, 6)
 }
 
 /// Two squares of 256 patches that face each other, and as many small screens halfway between.
 fn squares(distance: f64, screens: usize) -> Mesh {
-    let mut surfaces = vec![
+    let mut surfaces = surfaces([
         parallelogram([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
         parallelogram([0.0, 0.0, distance], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]),
-    ];
+    ]);
     surfaces.extend((0..screens).map(|k| {
         let from = 0.1 + 0.8 * k as f64 / screens as f64;
         let height = 0.5 * distance;
         let screen = parallelogram([from, from, height], [0.1, 0.0, 0.0], [0.02, 0.1, 0.0]);
         Surface {
             divisions: Some(Divisions::Uncut),
-            ..screen
+            ..surface(screen)
         }
     }));
     subdivide(&surfaces, Divisions::uniform(16)).expect("the squares are well-formed")

@@ -150,8 +150,9 @@ fn side<F: Float<f64>>(heights: F, tolerance: F) -> Side {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use radiosity_geometry::{Divisions, FaceId, Shape, Surface, subdivide};
+    use radiosity_geometry::{FaceId, Shape};
     use radiosity_simd::{InstructionSet, Kernel};
+    use radiosity_test_kit::{self as kit, Facing};
 
     struct EffectOf<'a>(&'a Blocker, [&'a Part; 2]);
 
@@ -166,33 +167,16 @@ mod tests {
     }
 
     fn square(center: DVec3, edge: f64) -> Shape {
-        Shape::Parallelogram {
-            corner: center - 0.5 * edge * (DVec3::X + DVec3::Y),
-            edge_a: edge * DVec3::X,
-            edge_b: edge * DVec3::Y,
-        }
-    }
-
-    /// A unit square.
-    fn facing_down(center: DVec3) -> Shape {
-        Shape::Parallelogram {
-            corner: center - 0.5 * (DVec3::X + DVec3::Y),
-            edge_a: DVec3::Y,
-            edge_b: DVec3::X,
-        }
+        kit::square([center.x, center.y], edge, center.z, Facing::Up)
     }
 
     fn effect(between: Shape) -> Effect {
         let shapes = [
             square(DVec3::ZERO, 1.0),
             between,
-            facing_down(2.0 * DVec3::Z),
+            kit::square([0.0; 2], 1.0, 2.0, Facing::Down),
         ];
-        let surfaces = shapes.map(|shape| Surface {
-            shape,
-            divisions: None,
-        });
-        let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
+        let mesh = kit::mesh_of(shapes);
         let blocker = Blocker::new(&mesh.faces[1].polygon);
         let [a, b] = [0, 2].map(|k: usize| {
             let face = &mesh.faces[k];

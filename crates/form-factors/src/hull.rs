@@ -130,8 +130,10 @@ impl<F: Float<f64>> Planes<F> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use radiosity_geometry::{Divisions, FaceId, Mesh, Occluders, Shape, Surface, subdivide};
+    use radiosity_geometry::{FaceId, Mesh, Occluders, Shape};
     use radiosity_simd::{InstructionSet, Kernel};
+    use radiosity_test_kit::random::vector;
+    use radiosity_test_kit::{self as kit, Facing, mesh_of, parallelogram};
     use rand::{RngExt, SeedableRng};
     use rand_pcg::Pcg64Mcg;
 
@@ -165,30 +167,13 @@ mod tests {
         found[0]
     }
 
-    fn mesh(shapes: [Shape; 3]) -> Mesh {
-        let surfaces = shapes.map(|shape| Surface {
-            shape,
-            divisions: None,
-        });
-        subdivide(&surfaces, Divisions::uniform(1)).unwrap()
-    }
-
-    /// A square of this size around a point.
-    fn square(center: [f64; 3], size: f64) -> Shape {
-        Shape::Parallelogram {
-            corner: DVec3::from_array(center) - 0.5 * size * (DVec3::X + DVec3::Y),
-            edge_a: size * DVec3::X,
-            edge_b: size * DVec3::Y,
-        }
+    fn square([x, y, z]: [f64; 3], edge: f64) -> Shape {
+        kit::square([x, y], edge, z, Facing::Up)
     }
 
     /// A square across the two others, whose planes both pass through its plane.
     fn upright(x: f64, y: f64) -> Shape {
-        Shape::Parallelogram {
-            corner: DVec3::new(x, y, 0.2),
-            edge_a: DVec3::X,
-            edge_b: 0.6 * DVec3::Z,
-        }
+        parallelogram([x, y, 0.2], DVec3::X, 0.6 * DVec3::Z)
     }
 
     #[test]
@@ -196,7 +181,7 @@ mod tests {
         let ends = || [square([0.0; 3], 1.0), square([0.0, 0.0, 1.0], 1.0)];
         let found = |blocker: Shape| {
             let [i, j] = ends();
-            is_clear(&mesh([i, j, blocker]))
+            is_clear(&mesh_of([i, j, blocker]))
         };
         assert!(!found(square([0.9, 0.0, 0.5], 1.0)));
         assert!(found(square([1.1, 0.0, 0.5], 1.0)));
@@ -214,12 +199,8 @@ mod tests {
         let mut rng = Pcg64Mcg::seed_from_u64(7);
         let (mut clear, mut met) = (0, 0);
         for case in 0..3000 {
-            let mut vector = |size: f64| {
-                let mut coordinate = || size * (rng.random::<f64>() - 0.5);
-                DVec3::new(coordinate(), coordinate(), coordinate())
-            };
             let mut shape = |corner: f64, size: f64| {
-                let (corner, a, b) = (vector(corner), vector(size), vector(size));
+                let [corner, a, b] = [corner, size, size].map(|size| vector(&mut rng, size));
                 if case % 2 == 0 {
                     Shape::Triangle([corner, corner + a, corner + b])
                 } else {
@@ -227,7 +208,7 @@ mod tests {
                 }
             };
             let shapes = [shape(2.0, 1.0), shape(2.0, 1.0), shape(2.0, 2.0)];
-            let mesh = mesh(shapes);
+            let mesh = mesh_of(shapes);
             let occluders = Occluders::new(&mesh);
             let mut on = |k: usize| {
                 let polygon = &mesh.faces[k].polygon;

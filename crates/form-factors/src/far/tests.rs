@@ -3,32 +3,17 @@
 use super::*;
 use crate::contour;
 use crate::exchange::kernel;
-use radiosity_geometry::{Divisions, Shape, Surface, subdivide};
+use radiosity_geometry::{Divisions, subdivide};
 use radiosity_simd::InstructionSet;
-use rand::{RngExt, SeedableRng};
+use radiosity_test_kit::random::{spanned, vector};
+use radiosity_test_kit::surface;
+use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
-fn random_vector(rng: &mut Pcg64Mcg, size: f64) -> DVec3 {
-    let mut coordinate = || size * (rng.random::<f64>() - 0.5);
-    DVec3::new(coordinate(), coordinate(), coordinate())
-}
-
 fn random_element(rng: &mut Pcg64Mcg, spread: f64) -> Option<Element> {
-    let corner = random_vector(rng, spread);
-    let (edge_a, edge_b) = (random_vector(rng, 2.0), random_vector(rng, 2.0));
-    let shape = if rng.random() {
-        Shape::Triangle([corner, corner + edge_a, corner + edge_b])
-    } else {
-        Shape::Parallelogram {
-            corner,
-            edge_a,
-            edge_b,
-        }
-    };
-    let surface = Surface {
-        shape,
-        divisions: None,
-    };
+    let corner = vector(rng, spread);
+    let (edge_a, edge_b) = (vector(rng, 2.0), vector(rng, 2.0));
+    let surface = surface(spanned(rng, corner, edge_a, edge_b));
     let mesh = subdivide(&[surface], Divisions::uniform(1)).ok()?;
     Some(Element::new(&mesh.patches[0]))
 }

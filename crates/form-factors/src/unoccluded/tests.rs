@@ -1,25 +1,17 @@
 //! Plates, squares and needles beside much larger faces, against closed forms.
 
 use super::*;
-use radiosity_geometry::{Divisions, Shape, Surface, subdivide};
-use std::f64::consts::PI;
+use radiosity_geometry::Shape;
+use radiosity_test_kit::closed_forms::parallel_rectangles;
+use radiosity_test_kit::{mesh_of, parallelogram};
 
 /// A parallelogram, or a triangle, as one patch.
 fn element(shape: Shape) -> Element {
-    let surface = Surface {
-        shape,
-        divisions: None,
-    };
-    let mesh = subdivide(&[surface], Divisions::uniform(1)).unwrap();
-    Element::new(&mesh.patches[0])
+    Element::new(&mesh_of([shape]).patches[0])
 }
 
 fn rectangle(corner: [f64; 3], edge_a: [f64; 3], edge_b: [f64; 3]) -> Element {
-    element(Shape::Parallelogram {
-        corner: corner.into(),
-        edge_a: edge_a.into(),
-        edge_b: edge_b.into(),
-    })
+    element(parallelogram(corner, edge_a, edge_b))
 }
 
 /// `F` of `i` towards `j`, and its error.
@@ -82,22 +74,14 @@ fn squares_at_the_edge_of_larger_ones_see_half_of_everything() {
     }
 }
 
-/// Two plates that face each other: Howell's C-11.
-fn facing(edge: f64, distance: f64) -> f64 {
-    let x = edge / distance;
-    let y = (1.0 + x * x).sqrt();
-    2.0 / (PI * x * x)
-        * ((y * y / (1.0 + 2.0 * x * x).sqrt()).ln() + 2.0 * x * y * (x / y).atan()
-            - 2.0 * x * x.atan())
-}
-
 /// Near and far from the origin, the same.
 #[test]
 fn plates_face_each_other_anywhere() {
+    let exact = parallel_rectangles([[0.0, 1.0]; 2], [[0.0, 1.0]; 2], 1.0);
     for away in [0.0, 1e3, 1e6] {
         let low = rectangle([away, away, -away], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
         let high = rectangle([away, away, 1.0 - away], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]);
-        assert_near(factor(&low, &high, 1e-12 * away), facing(1.0, 1.0), 1e-7);
+        assert_near(factor(&low, &high, 1e-12 * away), exact, 1e-7);
     }
 }
 

@@ -6,8 +6,9 @@ use crate::fan::Fan;
 use crate::lattice::ratio;
 use crate::lines::{Blocked, Lines};
 use crate::target::Target;
-use radiosity_geometry::{DVec3, Divisions, Mesh, Occluders, Shape, Surface, subdivide};
+use radiosity_geometry::{DVec3, Mesh, Occluders, Shape};
 use radiosity_simd::{Float, InstructionSet, LANES};
+use radiosity_test_kit::mesh_of;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A trapezoid and a triangle that face each other, and two things between them.
@@ -29,11 +30,7 @@ fn scene() -> Mesh {
             p(1.5, 3.0, 1.0),
         ]),
     ];
-    let surfaces = shapes.map(|shape| Surface {
-        shape,
-        divisions: None,
-    });
-    subdivide(&surfaces, Divisions::uniform(1)).unwrap()
+    mesh_of(shapes)
 }
 
 fn blockers(mesh: &Mesh) -> Vec<Blocker> {
@@ -101,11 +98,7 @@ fn samples_add_up_to_the_exchange() {
         p(3.0, 0.0, 0.0),
     ]);
     let floor = Shape::Triangle([p(0.0, 0.0, 0.0), p(3.0, 0.0, 0.0), p(1.0, 2.0, 0.0)]);
-    let surfaces = [wall, floor].map(|shape| Surface {
-        shape,
-        divisions: None,
-    });
-    let touching = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
+    let touching = mesh_of([wall, floor]);
     for mesh in [scene(), touching] {
         let corners = |k: usize| mesh.patches[k].polygon.corners();
         let exact = crate::contour::exchange(corners(0), corners(1), 1e-12).value;
@@ -257,11 +250,7 @@ fn lines_that_cross_shadows_know_more() {
     });
     let [below, [a, b, c, d]] = corners;
     let between = below.map(|corner| 0.65 * corner + p(-0.4, -0.4, 1.0));
-    let surfaces = [below, [a, d, c, b], between].map(|corners| Surface {
-        shape: Shape::Quad(corners),
-        divisions: None,
-    });
-    let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
+    let mesh = mesh_of([below, [a, d, c, b], between].map(Shape::Quad));
     let blockers = blockers(&mesh);
     let blocked = Blocked::By(&blockers);
     let diagonal = lines(&mesh, [0, 1], &blocked);

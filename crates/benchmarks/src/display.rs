@@ -1,0 +1,137 @@
+//! How fast pictures are, and how near the truth: beside the course's loop and a path tracer.
+
+mod views;
+
+use crate::figure::{Figure, Target, show};
+use crate::timing::best_seconds;
+use crate::{course, course_display, form_factors};
+use radiosity::image::{PictureFormat, ToneMap, Transfer, encode};
+use radiosity::renderer::Shading;
+use radiosity::scene::{Scene, load};
+use radiosity::{Error, Pipeline, Silent, Sources};
+use std::path::Path;
+use views::{GOOD, Truth, beside_the_tracer, exact_view, gathered_view};
+
+const BOTH: [Shading; 2] = [Shading::Constant, Shading::Smooth];
+/// How often pictures are timed.
+const RUNS: u32 = 5;
+/// Patches along each edge whose pictures with exact direct light are shown.
+const SIZES: [u32; 3] = [12, 24, 48];
+/// Patches along each edge that light is gathered from.
+const GATHERED: [u32; 2] = [12, 24];
+
+const TIMES_THE_COURSE: f64 = 25.0;
+const WHOLE_RUN: f64 = 110.0;
+
+pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
+    let scene = load(&root.join("scenes/cornell.toml"))?;
+    let mut figures = beside_the_course(&scene)?;
+    show(&figures, json);
+    figures.clear();
+    let truth = Truth::read(root)?;
+    let mut errors = Vec::new();
+    for divisions in SIZES {
+        let (found, more) = exact_view(&scene, divisions, &truth)?;
+        errors.push((divisions, found));
+        figures.extend(more);
+    }
+    let good = errors.iter().find(|(divisions, _)| *divisions == GOOD);
+    let view = good.map(|(_, view)| view).expect("it is one of the sizes");
+    for divisions in GATHERED {
+        figures.extend(gathered_view(&scene, divisions, &truth)?);
+    }
+    figures.extend(beside_the_tracer(&scene, &truth, view)?);
+    show(&figures, json);
+    Ok(())
+}
+
+fn figure(name: &str, value: f64, unit: &'static str, target: Option<Target>) -> Figure {
+    Figure::new(format!("display.{name}"), Some(value), unit, target)
+}
+
+/// Both pictures of the course, and its whole run.
+fn beside_the_course(scene: &Scene) -> Result<Vec<Figure>, Error> {
+    let pipeline = Pipeline::new(scene, None, &Silent)?;
+    let made = pipeline.form_factors(Sources::Cached)?.form_factors;
+    let light = pipeline.solution(Sources::Cached)?.light;
+    let ours = best_seconds(RUNS, || {
+        std::hint::black_box(pipeline.pictures(&light, &BOTH).is_ok());
+    });
+    let mesh = pipeline.mesh();
+    let course = best_seconds(1, || {
+        for is_smooth in [false, true] {
+            std::hint::black_box(course_display::render(mesh, &light.radiosity, is_smooth));
+        }
+    });
+    let course_factors = form_factors::baseline_seconds(mesh);
+    let whole = course + course_factors + course::seconds(&made);
+    let folder = tempfile::tempdir().map_err(|error| Error::Output {
+        path: std::env::temp_dir(),
+        error,
+    })?;
+    let mut problem = None;
+    let cold = best_seconds(RUNS, || problem = cold_run(scene, folder.path()).err());
+    if let Some(problem) = problem {
+        return Err(problem);
+    }
+    let most = Some(Target::AtLeast(TIMES_THE_COURSE));
+    Ok(vec![
+        figure(
+            "both.seconds",
+            ours,
+            "s, 640 x 480 x 16 samples, all threads",
+            None,
+        ),
+        figure(
+            "both.course",
+            course,
+            "s, the course's loop, one thread",
+            None,
+        ),
+        figure(
+            "both.speedup",
+            course / ours,
+            "times the course's loop",
+            most,
+        ),
+        figure(
+            "run.seconds",
+            cold,
+            "s from the scene to both pictures as PPM and PNG",
+            None,
+        ),
+        figure(
+            "run.course",
+            whole,
+            "s, the course's three loops, one thread",
+            None,
+        ),
+        figure(
+            "run.speedup",
+            whole / cold,
+            "times the course's loops",
+            Some(Target::AtLeast(WHOLE_RUN)),
+        ),
+    ])
+}
+
+/// Everything that `render` does without a cache, but for words.
+fn cold_run(scene: &Scene, folder: &Path) -> Result<(), Error> {
+    let pipeline = Pipeline::new(scene, None, &Silent)?;
+    let light = pipeline.solution(Sources::Cached)?.light;
+    let pictures = pipeline.pictures(&light, &BOTH)?;
+    let transfer = Transfer::Gamma(2.2);
+    let tone = ToneMap::clamped(scene.image.exposure.factor().unwrap_or(1.0), transfer);
+    for (name, image) in ["constant", "smooth"].into_iter().zip(&pictures) {
+        let shown = tone.apply(image);
+        for (ending, format) in [
+            ("ppm", PictureFormat::Ppm),
+            ("png", PictureFormat::Png(transfer)),
+        ] {
+            let path = folder.join(format!("{name}.{ending}"));
+            let written = std::fs::write(&path, encode(&shown, format, &[]));
+            written.map_err(|error| Error::Output { path, error })?;
+        }
+    }
+    Ok(())
+}

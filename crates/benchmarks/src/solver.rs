@@ -1,0 +1,148 @@
+//! How near the solver comes to the speed of memory, what each method takes, and the course's loop
+//! beside them.
+
+mod bandwidth;
+
+use crate::course;
+use crate::figure::{Figure, Target, show};
+use crate::timing::best_seconds;
+use bandwidth::passes;
+use radiosity::cache::Store;
+use radiosity::form_factors::FormFactors;
+use radiosity::scene::{Mode, Scene, load};
+use radiosity::solver::{Convergence, Method, relit};
+use radiosity::{Error, Pipeline, Silent, Sources};
+use std::path::Path;
+
+/// Patches along each edge of the course's rectangles: 1,728, 6,912 and 27,648 patches.
+const SIZES: [u32; 3] = [12, 24, 48];
+/// Good enough to know how many passes a solution takes.
+const TOLERANCE: f64 = 0.01;
+/// Reflectances of the closed room.
+const REFLECTANCES: [f64; 3] = [0.5, 0.9, 0.95];
+const RESIDUALS: [f64; 2] = [1e-3, 1e-6];
+
+/// How many passes, and how many times faster than the course's 40 sweeps.
+const MOST_PASSES: f64 = 12.0;
+const MOST_STEPS: f64 = 15.0;
+const COURSE: f64 = 60.0;
+
+pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
+    let folder = tempfile::tempdir().map_err(|error| Error::Output {
+        path: std::env::temp_dir(),
+        error,
+    })?;
+    let store = Store::new(folder.path());
+    let mut figures = Vec::new();
+    for divisions in SIZES {
+        let cornell = scene(root, "cornell", divisions)?;
+        let made = form_factors(&cornell, &store)?;
+        figures.extend(passes(&made));
+        figures.extend(methods(cornell, &made)?);
+        figures.push(beside_the_course(&made, &figures));
+        let closed = scene(root, "cornell-closed", divisions)?;
+        let made = form_factors(&closed, &store)?;
+        for reflectance in REFLECTANCES {
+            let mut closed = closed.clone();
+            closed.name = format!("closed_{reflectance}");
+            for material in &mut closed.materials {
+                material.reflectance = [reflectance; 3];
+            }
+            figures.extend(methods(closed, &made)?);
+        }
+        show(&figures, json);
+        figures.clear();
+    }
+    show(&[relighting()], json);
+    Ok(())
+}
+
+fn scene(root: &Path, name: &str, divisions: u32) -> Result<Scene, Error> {
+    let mut scene = load(&root.join(format!("scenes/{name}.toml")))?;
+    scene.divisions = radiosity::geometry::Divisions::uniform(divisions);
+    scene.form_factors.mode = Mode::Accurate;
+    scene.form_factors.tolerance = TOLERANCE;
+    Ok(scene)
+}
+
+/// From a mapped file: the first time they are made, the second they are read.
+fn form_factors(scene: &Scene, store: &Store) -> Result<FormFactors, Error> {
+    let pipeline = Pipeline::new(scene, Some(store), &Silent)?;
+    pipeline.form_factors(Sources::Cached)?;
+    Ok(pipeline.form_factors(Sources::Cached)?.form_factors)
+}
+
+/// So many runs: the shorter, the more.
+fn runs(patches: usize) -> u32 {
+    match patches {
+        0..5_000 => 150,
+        5_000..10_000 => 30,
+        _ => 5,
+    }
+}
+
+/// What each method takes to each residual.
+fn methods(mut scene: Scene, made: &FormFactors) -> Result<Vec<Figure>, Error> {
+    let mut figures = Vec::new();
+    for (name, method) in Method::RIVALS {
+        let name = name.to_lowercase().replace([' ', '-'], "_");
+        for residual in RESIDUALS {
+            scene.solver.tolerance = residual;
+            let pipeline = Pipeline::new(&scene, None, &Silent)?;
+            let patches = pipeline.mesh().patches.len();
+            let report = pipeline.solve_by(method, made)?.report;
+            let seconds = best_seconds(runs(patches).div_ceil(5), || {
+                std::hint::black_box(pipeline.solve_by(method, made).is_ok());
+            });
+            let promise = match (&scene.name[..], &name[..]) {
+                ("cornell", "over_relaxation") if residual < 1e-5 => Some(MOST_PASSES),
+                ("closed_0.95", "conjugate_gradients") if residual < 1e-5 => Some(MOST_STEPS),
+                _ => None,
+            };
+            let name = format!("solver.{patches}.{}.{name}.{residual:e}", scene.name);
+            let target = promise.map(|most| Target::Between(0.0, most));
+            figures.push(Figure::new(
+                format!("{name}.passes"),
+                Some(passes_of(&report)),
+                "",
+                target,
+            ));
+            figures.push(Figure::new(
+                format!("{name}.ms"),
+                Some(1e3 * seconds),
+                "ms",
+                None,
+            ));
+        }
+    }
+    Ok(figures)
+}
+
+/// Conjugate gradients take one more to be sure of the last.
+fn passes_of(report: &Convergence) -> f64 {
+    let extra = usize::from(report.method == Method::ConjugateGradients);
+    (report.residuals.len() + extra) as f64
+}
+
+/// The course's sweeps beside the default solution of the same scene.
+fn beside_the_course(made: &FormFactors, figures: &[Figure]) -> Figure {
+    let patches = made.exchange.size();
+    let ours = format!("solver.{patches}.cornell.over_relaxation.1e-6.ms");
+    let ours = figures.iter().find(|figure| figure.name == ours);
+    let ours = ours.and_then(|figure| figure.value);
+    let course = 1e3 * course::seconds(made);
+    let target = (patches < 2000).then_some(Target::AtLeast(COURSE));
+    let unit = "times faster than the course's 40 sweeps";
+    let name = format!("solver.{patches}.cornell.speedup");
+    Figure::new(name, ours.map(|ours| course / ours), unit, target)
+}
+
+/// A frame of 10,000 patches in which four lamps are dimmed.
+fn relighting() -> Figure {
+    let lights = vec![vec![[1.0, 0.5, 0.25]; 10_000]; 4];
+    let seconds = best_seconds(100, || {
+        std::hint::black_box(relit(&lights, &[[0.1, 0.2, 0.3]; 4]));
+    });
+    let unit = "us for 10,000 patches and 4 lights";
+    Figure::new("solver.relight".to_owned(), Some(1e6 * seconds), unit, None)
+}

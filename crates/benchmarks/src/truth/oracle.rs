@@ -1,0 +1,144 @@
+//! What the modes are judged by: long random walks and path-traced pictures.
+
+use crate::figure::Figure;
+use radiosity::compare::{Errors, Table, compare_pictures, compare_tables};
+use radiosity::geometry::Mesh;
+use radiosity::image::{Decoded, Image};
+use radiosity::reference::{Tracer, cell_means};
+use radiosity::renderer::Shading;
+use radiosity::scene::Scene;
+use radiosity::{Error, Pipeline, Silent, Sources, cells, radiosity_table, reference_table};
+
+/// Random walks of the oracle, shared by all patches.
+const WALKS: usize = 40_000_000;
+/// Of each of the two pictures.
+const PASSES: u32 = 16;
+
+/// What the modes are judged by.
+pub(super) struct Oracle {
+    table: Table,
+    picture: Decoded,
+    /// Root mean square errors, in percent of the mean.
+    table_noise: f64,
+    picture_noise: f64,
+}
+
+/// The errors of one mode, in percent.
+pub(super) struct Accuracy {
+    pub(super) rmse: f64,
+    pub(super) bias: f64,
+    pub(super) picture_rmse: f64,
+    /// Time of the form factors.
+    pub(super) seconds: f64,
+}
+
+impl Oracle {
+    pub(super) fn of(scene: &Scene) -> Result<Oracle, Error> {
+        let pipeline = Pipeline::new(scene, None, &Silent)?;
+        let mesh = pipeline.mesh();
+        let walks = WALKS.div_ceil(mesh.patches.len()) as u32;
+        let means = cell_means(scene, mesh, walks, 1, &|_| ());
+        let [a, b] = [trace(scene, 2)?, trace(scene, 3)?];
+        // Half their difference has the variance of their mean.
+        let halves = picture_rmse(&a, &decoded(b.clone()), scene)?;
+        let mean = |(a, b): (&[f32; 3], &[f32; 3])| std::array::from_fn(|c| 0.5 * (a[c] + b[c]));
+        let pixels = a.pixels.iter().zip(&b.pixels).map(mean).collect();
+        let table = reference_table(scene, mesh, &means);
+        let itself = table_errors(scene, mesh, &table, &table)?;
+        Ok(Oracle {
+            table,
+            table_noise: itself.noise_percent.unwrap_or(0.0),
+            picture: decoded(Image { pixels, ..a }),
+            picture_noise: 0.5 * halves,
+        })
+    }
+
+    pub(super) fn noise(&self, scene: &str) -> [Figure; 2] {
+        let noises = [
+            ("radiosity", self.table_noise),
+            ("picture", self.picture_noise),
+        ];
+        noises.map(|(what, noise)| {
+            let name = format!("oracle.{scene}.{what}_noise");
+            Figure::new(name, Some(noise), "%", None)
+        })
+    }
+
+    /// Renders a scene and compares; `None` if it has no solution.
+    pub(super) fn judge(&self, scene: &Scene) -> Result<Option<Accuracy>, Error> {
+        let pipeline = Pipeline::new(scene, None, &Silent)?;
+        let solved = match pipeline.solution(Sources::Cached) {
+            Err(Error::Unsolvable { .. }) => return Ok(None),
+            solved => solved?,
+        };
+        let found = radiosity_table(
+            scene,
+            pipeline.mesh(),
+            &pipeline.mean_radiosity(&solved.light),
+        );
+        let all = table_errors(scene, pipeline.mesh(), &found, &self.table)?;
+        let smooth = pipeline.pictures(&solved.light, &[Shading::Smooth])?;
+        let squares = picture_rmse(&smooth[0], &self.picture, scene)?.powi(2);
+        Ok(Some(Accuracy {
+            rmse: all.rmse_percent_without_noise(),
+            bias: all.bias_percent,
+            picture_rmse: (squares - self.picture_noise.powi(2)).max(0.0).sqrt(),
+            seconds: solved.form_factors.seconds,
+        }))
+    }
+}
+
+/// Over the patches that do not emit; over all, where all emit.
+fn table_errors(
+    scene: &Scene,
+    mesh: &Mesh,
+    found: &Table,
+    reference: &Table,
+) -> Result<Errors, Error> {
+    let mut cells = cells(scene, mesh);
+    if cells.iter().all(|cell| cell.emits) {
+        cells.iter_mut().for_each(|cell| cell.emits = false);
+    }
+    let errors = compare_tables(&cells, found, reference);
+    let errors = errors.map_err(|error| Error::Input(error.to_string()))?;
+    Ok(errors[errors.len() - 1].1)
+}
+
+fn trace(scene: &Scene, seed: u64) -> Result<Image, Error> {
+    let mut tracer = tracer(scene, seed)?;
+    (0..PASSES).for_each(|_| tracer.pass(&|_| ()));
+    let traced = tracer.picture();
+    let to_f32 = |pixel: &[f64; 3]| pixel.map(|channel| channel as f32);
+    Ok(Image {
+        width: traced.width,
+        height: traced.height,
+        pixels: traced.radiance.iter().map(to_f32).collect(),
+    })
+}
+
+pub(super) fn tracer(scene: &Scene, seed: u64) -> Result<Tracer<'_>, Error> {
+    let camera = scene
+        .camera
+        .as_ref()
+        .ok_or_else(|| Error::no_camera(scene))?;
+    Tracer::new(scene, camera, seed).map_err(|error| Error::Mesh(error.to_string()))
+}
+
+fn decoded(image: Image) -> Decoded {
+    Decoded {
+        image,
+        levels: false,
+    }
+}
+
+/// Over the pixels that the reference shows unclamped, in percent of their mean.
+fn picture_rmse(found: &Image, reference: &Decoded, scene: &Scene) -> Result<f64, Error> {
+    let errors = compare_pictures(
+        found,
+        reference,
+        None,
+        scene.image.exposure.factor().unwrap_or(0.0),
+    );
+    let errors = errors.map_err(|error| Error::Input(error.to_string()))?;
+    Ok(errors[errors.len() - 1].1.rmse_percent)
+}

@@ -1,0 +1,26 @@
+//! Form factors by each estimator, in few words.
+
+use radiosity_form_factors::{Estimator, FormFactors, estimate};
+use radiosity_geometry::Mesh;
+
+pub(crate) fn run(mesh: &Mesh, estimator: Estimator) -> FormFactors {
+    estimate(mesh, estimator, &|_| ())
+}
+
+pub(crate) fn regular(mesh: &Mesh, points: u32) -> FormFactors {
+    run(mesh, Estimator::Regular { points })
+}
+
+pub(crate) fn accurate(mesh: &Mesh, tolerance: f64) -> FormFactors {
+    run(mesh, Estimator::Accurate { tolerance })
+}
+
+/// So many pairs of points, of strata along each edge.
+pub(crate) fn monte_carlo(mesh: &Mesh, [points, pairs]: [u32; 2], seed: u64) -> FormFactors {
+    let estimator = Estimator::MonteCarlo {
+        points,
+        pairs,
+        seed,
+    };
+    run(mesh, estimator)
+}

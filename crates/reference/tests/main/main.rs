@@ -1,0 +1,4 @@
+//! The oracle against closed forms, and against itself.
+
+mod pictures;
+mod radiosities;

@@ -1,0 +1,3 @@
+//! Kernels on all instruction sets of the machine.
+
+mod same_bits;
