@@ -5,9 +5,7 @@ use crate::figure::{Figure, Target};
 use crate::timing::best_seconds;
 use radiosity::compare::compare_pictures;
 use radiosity::geometry::{Divisions, PixelFilter};
-use radiosity::image::{
-    DecodeParams, Decoded, Image, Regions, Transfer, decode_picture, decode_regions,
-};
+use radiosity::image::{DecodeParams, Decoded, Image, Regions, decode_picture, decode_regions};
 use radiosity::reference::Tracer;
 use radiosity::renderer::Shading;
 use radiosity::scene::{Mode, Scene};
