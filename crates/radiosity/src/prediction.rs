@@ -30,8 +30,7 @@ pub(crate) fn prediction(
     let (estimator, factor) = rehearsed(job.estimator);
     let smaller = (factor > 1.0).then(|| Estimation::new(job.mesh, estimator));
     let estimation = smaller.as_ref().unwrap_or(estimation);
-    let enough = (factor * left as f64) as u64 / REHEARSED_ONE_IN;
-    let seconds = factor * left as f64 * seconds_per_pair(estimation, enough);
+    let seconds = factor * left as f64 * seconds_per_pair(estimation, enough(left, factor));
     Some(format!(
         "{} patches, {} pairs: {} of memory, {} of disk, {}",
         grouped(needs.patches as u64),
@@ -62,6 +61,11 @@ fn rehearsed(estimator: Estimator) -> (Estimator, f64) {
     };
     let pairs = |of: Estimator| of.point_pairs() as f64;
     (smaller, pairs(estimator) / pairs(smaller))
+}
+
+/// How many pairs are enough of so many that are left, where each takes so many times as long.
+fn enough(left: u64, factor: f64) -> u64 {
+    (factor * left as f64) as u64 / REHEARSED_ONE_IN
 }
 
 /// The time of a pair, by a rehearsal that need not do more than enough of them.
@@ -95,5 +99,12 @@ mod tests {
         assert_eq!(rehearsed(random(1 << 20)), (random(1 << 12), 256.0));
         let accurate = Estimator::Accurate { tolerance: 1e-6 };
         assert_eq!(rehearsed(accurate), (accurate, 1.0));
+    }
+
+    /// The same part of the work, whatever the points: of few pairs, each several times.
+    #[test]
+    fn few_pairs_of_many_points_are_rehearsed_as_long() {
+        assert_eq!(enough(4000, 1.0), 100);
+        assert_eq!(enough(1128, 256.0), 7219);
     }
 }
