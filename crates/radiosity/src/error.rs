@@ -24,11 +24,15 @@ pub enum Error {
     #[error("error: {0}")]
     Input(String),
     /// A picture was asked of a scene without a camera.
-    #[error("error: the scene has no camera\n   = help: {help}")]
-    NoCamera {
-        /// What to do.
-        help: &'static str,
-    },
+    #[error(
+        "error: the scene has no camera\n   = help: add a [camera] with `position`, `look_at` and `vertical_fov`, or use `solve`"
+    )]
+    NoCamera,
+    /// The same of a scene whose file cannot hold one.
+    #[error(
+        "error: the scene has no camera\n   = help: a View3D file (.vs3) holds neither camera nor light: use `form-factors`, or write its surfaces into a scene file (.toml) with a [camera] and a material that emits"
+    )]
+    NoCameraInView3D,
     /// The surfaces cannot be cut into patches.
     #[error("error: {0}")]
     Mesh(String),
@@ -77,7 +81,8 @@ impl Error {
             Error::Cache(_) | Error::CacheFolder(_) | Error::Output { .. } => 1,
             Error::Scene(_)
             | Error::NoSuchScene { .. }
-            | Error::NoCamera { .. }
+            | Error::NoCamera
+            | Error::NoCameraInView3D
             | Error::Input(_)
             | Error::Mesh(_)
             | Error::Changed(_) => 3,
@@ -88,16 +93,10 @@ impl Error {
 
     /// A picture was asked of a scene without a camera.
     pub fn no_camera(scene: &Scene) -> Error {
-        let help = match scene.kind {
-            FileKind::Toml => {
-                "add a [camera] with `position`, `look_at` and `vertical_fov`, or use `solve`"
-            }
-            FileKind::View3D => {
-                "a View3D file (.vs3) holds neither camera nor light: use `form-factors`, or write its \
-                 surfaces into a scene file (.toml) with a [camera] and a material that emits"
-            }
-        };
-        Error::NoCamera { help }
+        match scene.kind {
+            FileKind::Toml => Error::NoCamera,
+            FileKind::View3D => Error::NoCameraInView3D,
+        }
     }
 
     /// Names the surface that a mesh error is about.

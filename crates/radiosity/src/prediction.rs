@@ -7,8 +7,8 @@ use std::time::Instant;
 
 /// Below this many pairs of points a prediction costs more than it is worth.
 const PREDICTED_FROM: u64 = 20_000_000;
-/// A rehearsal goes on until it has taken so many seconds, or done one in so many pairs: fewer may all
-/// be pairs that see nothing of each other.
+/// A rehearsal goes on until it has taken so many seconds, or done one in so many of the run's pairs of points:
+/// fewer may all be of patches that see nothing of each other, or more of each other than most.
 const LONG_ENOUGH: f64 = 0.1;
 const REHEARSED_ONE_IN: u64 = 40;
 /// With more points along an edge, or more pairs of points, a rehearsal takes these.
@@ -30,7 +30,7 @@ pub(crate) fn prediction(
     let (estimator, factor) = rehearsed(job.estimator);
     let smaller = (factor > 1.0).then(|| Estimation::new(job.mesh, estimator));
     let estimation = smaller.as_ref().unwrap_or(estimation);
-    let seconds = factor * left as f64 * seconds_per_pair(estimation, left);
+    let seconds = factor * left as f64 * seconds_per_pair(estimation, enough(left, factor));
     Some(format!(
         "{} patches, {} pairs: {} of memory, {} of disk, {}",
         grouped(needs.patches as u64),
@@ -63,13 +63,19 @@ fn rehearsed(estimator: Estimator) -> (Estimator, f64) {
     (smaller, pairs(estimator) / pairs(smaller))
 }
 
-fn seconds_per_pair(estimation: &Estimation<'_>, left: u64) -> f64 {
+/// How many pairs are enough of so many that are left, where each takes so many times as long.
+fn enough(left: u64, factor: f64) -> u64 {
+    (factor * left as f64) as u64 / REHEARSED_ONE_IN
+}
+
+/// The time of a pair, by a rehearsal that need not do more than enough of them.
+fn seconds_per_pair(estimation: &Estimation<'_>, enough: u64) -> f64 {
     let mut wanted = 2 * rayon::current_num_threads() as u64;
     loop {
         let start = Instant::now();
         let done = estimation.rehearse(wanted);
         let seconds = start.elapsed().as_secs_f64();
-        if seconds >= LONG_ENOUGH || done >= left / REHEARSED_ONE_IN {
+        if seconds >= LONG_ENOUGH || done >= enough {
             return seconds / done as f64;
         }
         wanted = 4 * done;
@@ -93,5 +99,12 @@ mod tests {
         assert_eq!(rehearsed(random(1 << 20)), (random(1 << 12), 256.0));
         let accurate = Estimator::Accurate { tolerance: 1e-6 };
         assert_eq!(rehearsed(accurate), (accurate, 1.0));
+    }
+
+    /// The same part of the work, whatever the points: of few pairs, each several times.
+    #[test]
+    fn few_pairs_of_many_points_are_rehearsed_as_long() {
+        assert_eq!(enough(4000, 1.0), 100);
+        assert_eq!(enough(1128, 256.0), 7219);
     }
 }
