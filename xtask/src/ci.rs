@@ -31,7 +31,10 @@ const STEPS: [(&str, &[&str]); 6] = [
         "no features",
         &["check", "--package", "radiosity", "--no-default-features"],
     ),
-    ("tests", &["test", "--workspace"]),
+    (
+        "tests, slow ones too",
+        &["test", "--workspace", "--", "--include-ignored"],
+    ),
     (
         "render",
         &["xtask", "render", "--no-cache", "--output", "target/ci"],

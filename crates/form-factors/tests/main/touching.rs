@@ -94,6 +94,7 @@ fn tolerances_are_kept_in_rooms_of_every_kind() {
 }
 
 #[test]
+#[ignore = "slow: two minutes"]
 fn fine_tolerances_are_kept_in_many_rooms_of_every_kind() {
     for kind in KINDS {
         for campaign in Campaign::run(kind, 6, &[1e-2, 1e-3, 1e-4]) {
@@ -104,6 +105,7 @@ fn fine_tolerances_are_kept_in_many_rooms_of_every_kind() {
 
 /// One room of each kind, since that takes its time.
 #[test]
+#[ignore = "slow: a minute"]
 fn small_tolerances_are_kept() {
     for kind in KINDS {
         let mesh = room(kind, 7);
