@@ -5,7 +5,7 @@ mod generate;
 
 use clap::{Parser, Subcommand};
 use generate::Generated;
-use radiosity::cli::{Command, EXIT_CODES, Site, run};
+use radiosity::cli::{Command, EXIT_CODES, Site, parse_command_line, run};
 use std::ffi::OsString;
 use std::path::Path;
 use std::process::{self, ExitCode};
@@ -47,7 +47,11 @@ fn main() -> ExitCode {
         Ok(here) if here == root => Path::new("").to_owned(),
         _ => root,
     };
-    match Cli::parse().task {
+    let task = match parse_command_line::<Cli>() {
+        Ok(cli) => cli.task,
+        Err(code) => return code,
+    };
+    match task {
         Task::Radiosity(command) => run(&command, &Site::checkout(&root)),
         Task::Bench { arguments } => bench(&arguments, &root),
         Task::Ci => ci::run(&root),
