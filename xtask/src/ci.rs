@@ -29,7 +29,12 @@ const STEPS: [(&str, &[&str]); 6] = [
     ),
     (
         "no features",
-        &["check", "--package", "radiosity", "--no-default-features"],
+        &[
+            "check",
+            "--package",
+            "radiosity-cli",
+            "--no-default-features",
+        ],
     ),
     (
         "tests, slow ones too",

@@ -5,7 +5,7 @@ mod generate;
 
 use clap::{Parser, Subcommand};
 use generate::Generated;
-use radiosity::cli::{Command, EXIT_CODES, Site, parse_command_line, run};
+use radiosity_cli::{Command, EXIT_CODES, Site, parse_command_line, run};
 use std::ffi::OsString;
 use std::path::Path;
 use std::process::{self, ExitCode};

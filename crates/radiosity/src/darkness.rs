@@ -1,8 +1,8 @@
 //! Why pictures are black.
 
 use crate::face_rays::{cosine_rays, spread};
-use crate::lines::named;
 use crate::pipeline::Pipeline;
+use crate::words::named;
 use radiosity_geometry::{Backs, Camera, DVec2, Face, FaceId, Mesh, Occluders, Patch, Ray};
 use radiosity_scene::{Light, Mode, Scene};
 use radiosity_solver::Energy;
@@ -18,7 +18,7 @@ const MOST_LIGHTS: usize = 64;
 const RAYS: u32 = 24;
 
 /// What a power balance says of pictures that will be black, or nearly so.
-pub(crate) fn light_lines(pipeline: &Pipeline<'_>, energy: &Energy) -> Vec<String> {
+pub fn light_lines(pipeline: &Pipeline<'_>, energy: &Energy) -> Vec<String> {
     let sum = |of: [f64; 3]| of.iter().sum::<f64>();
     let emitted = sum(energy.emitted);
     if emitted == 0.0 {
@@ -50,7 +50,7 @@ pub(crate) fn light_lines(pipeline: &Pipeline<'_>, energy: &Energy) -> Vec<Strin
 }
 
 /// Why there is no light at all, if there is none: known without radiosities.
-pub(crate) fn of_scene(scene: &Scene, mesh: &Mesh) -> Option<String> {
+pub fn of_scene(scene: &Scene, mesh: &Mesh) -> Option<String> {
     let shines = |face: &Face| is_lit(scene, face) && !is_covered(scene, mesh, face);
     let is_dark = !mesh.faces.iter().any(shines);
     is_dark.then(|| no_light(scene, mesh))
@@ -114,7 +114,7 @@ fn lit_backs<'a>(pipeline: &'a Pipeline<'_>) -> BTreeSet<&'a str> {
 }
 
 /// Why a picture that a camera takes is black.
-pub(crate) fn of_picture(pipeline: &Pipeline<'_>, camera: &Camera, size: (u32, u32)) -> String {
+pub fn of_picture(pipeline: &Pipeline<'_>, camera: &Camera, size: (u32, u32)) -> String {
     let mesh = pipeline.mesh();
     let occluders = Occluders::new(mesh);
     let [origin, across, down] = camera.film(size.0, size.1);

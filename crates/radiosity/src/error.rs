@@ -100,7 +100,7 @@ impl Error {
     }
 
     /// Names the surface that a mesh error is about.
-    pub(crate) fn of_mesh(scene: &Scene, error: &MeshError) -> Error {
+    pub fn of_mesh(scene: &Scene, error: &MeshError) -> Error {
         let name = |id: &radiosity_geometry::SurfaceId| &scene.surfaces[id.index()].name;
         Error::Mesh(match error {
             MeshError::Shape { surface, error } => format!("surface `{}` {error}", name(surface)),

@@ -23,7 +23,7 @@ pub fn reference_table(scene: &Scene, mesh: &Mesh, cells: &[CellMean]) -> Table 
 
 /// The patches of a table: the scene's own, or so many along the edges of each surface, whatever
 /// divisions it has of its own.
-pub(crate) fn table_mesh(scene: &Scene, counts: Option<(u32, u32)>) -> Result<Mesh, Error> {
+pub fn table_mesh(scene: &Scene, counts: Option<(u32, u32)>) -> Result<Mesh, Error> {
     let mesh = match counts {
         Some((a, b)) => subdivide(&scene.undivided(), Divisions::Count { a, b }),
         None => subdivide(&scene.geometry, scene.divisions),
@@ -78,7 +78,7 @@ pub(crate) fn faces_in_input_order(mesh: &Mesh) -> Vec<&Face> {
 }
 
 /// The patch of this place on the surface of this name.
-pub(crate) fn patch_at(scene: &Scene, mesh: &Mesh, surface: &str, cell: [u32; 2]) -> Option<usize> {
+pub fn patch_at(scene: &Scene, mesh: &Mesh, surface: &str, cell: [u32; 2]) -> Option<usize> {
     let is_it = |(patch, place): &(usize, [u32; 2])| {
         let index = mesh.patches[*patch].surface.index();
         *place == cell && scene.surfaces[index].name == surface

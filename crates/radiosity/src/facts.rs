@@ -9,39 +9,47 @@ use radiosity_matrix::packed_len;
 use radiosity_solver::Convergence;
 use serde::{Deserialize, Serialize};
 
-pub(crate) const FORM_FACTORS: &str = "form-factors";
-pub(crate) const CLOSURE: &str = "closure";
-pub(crate) const SOLUTION: &str = "solution";
+/// The stage of form factors as they are estimated.
+pub const FORM_FACTORS: &str = "form-factors";
+/// That of form factors whose rows are made to sum to 1.
+pub const CLOSURE: &str = "closure";
+/// That of radiosities.
+pub const SOLUTION: &str = "solution";
 /// Raise it whenever the layout of [`FactorFacts`] changes: it is part of their keys.
-pub(crate) const FACTORS_VERSION: u32 = 10;
+pub const FACTORS_VERSION: u32 = 10;
 /// The same for [`SolutionFacts`].
-pub(crate) const SOLUTION_VERSION: u32 = 11;
+pub const SOLUTION_VERSION: u32 = 11;
 
 /// Beside the matrix of form factors.
 #[derive(Debug, Serialize, Deserialize)]
-pub(crate) struct FactorFacts {
-    pub(crate) estimator: Estimator,
+pub struct FactorFacts {
+    /// What they were estimated by.
+    pub estimator: Estimator,
     /// How many patches each surface has: theirs come one after the other.
-    pub(crate) patches_of_surfaces: Vec<u32>,
+    pub patches_of_surfaces: Vec<u32>,
     /// The number of each patch's row in exported tables.
-    pub(crate) exported_as: Vec<u32>,
+    pub exported_as: Vec<u32>,
     /// Per patch, the area that exchanges light.
-    pub(crate) areas: Vec<f64>,
+    pub areas: Vec<f64>,
     /// Per patch.
-    pub(crate) rows: Vec<RowFacts>,
-    pub(crate) classes: Option<Classes>,
-    pub(crate) closure: Option<ClosureFacts>,
+    pub rows: Vec<RowFacts>,
+    /// Pairs by how much they see of each other, if the estimator tells.
+    pub classes: Option<Classes>,
+    /// How rows were made to sum to 1, if they were.
+    pub closure: Option<ClosureFacts>,
 }
 
 /// Beside the radiosities.
 #[derive(Debug, Serialize, Deserialize)]
-pub(crate) struct SolutionFacts {
-    pub(crate) report: Convergence,
-    pub(crate) rows: RowSummary,
+pub struct SolutionFacts {
+    /// How the solution was reached.
+    pub report: Convergence,
+    /// The rows of the form factors that it was made from.
+    pub rows: RowSummary,
     /// The names of the lights, in the order of their radiosities. Their direct parts follow.
-    pub(crate) lights: Vec<String>,
+    pub lights: Vec<String>,
     /// Of each patch, the share that exchanges light; 0 where next to nothing of it does.
-    pub(crate) visible: Vec<f32>,
+    pub visible: Vec<f32>,
 }
 
 impl FactorFacts {

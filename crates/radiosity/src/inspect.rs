@@ -1,7 +1,7 @@
 //! What a file of the cache says of itself.
 
 use crate::facts::{CLOSURE, FORM_FACTORS, FactorFacts, SOLUTION, SolutionFacts};
-use crate::report::RowReport;
+use crate::row_report::RowReport;
 use crate::rows::RowSummary;
 use radiosity_cache::{Miss, Opened};
 use radiosity_form_factors::{Estimator, RowFacts};
@@ -9,46 +9,64 @@ use serde::{Serialize, Serializer};
 
 /// The object that `inspect --json` prints. Fields may be added, but not changed or removed.
 #[derive(Debug, Serialize)]
-pub(crate) struct Inspection {
-    pub(crate) stage: String,
-    pub(crate) key: String,
+pub struct Inspection {
+    /// The stage that made it.
+    pub stage: String,
+    /// The digest of what it was made from, in hexadecimal digits.
+    pub key: String,
+    /// What there is to say of form factors.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) form_factors: Option<FactorInspection>,
+    pub form_factors: Option<FactorInspection>,
+    /// What there is to say of a solution.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) solution: Option<SolutionInspection>,
+    pub solution: Option<SolutionInspection>,
 }
 
+/// Form factors.
 #[derive(Debug, Serialize)]
-pub(crate) struct FactorInspection {
-    pub(crate) patches: usize,
-    pub(crate) surfaces: usize,
-    pub(crate) estimator: EstimatorReport,
+pub struct FactorInspection {
+    /// How many patches they are of.
+    pub patches: usize,
+    /// How many surfaces.
+    pub surfaces: usize,
+    /// What they were estimated by.
+    pub estimator: EstimatorReport,
+    /// Statistics of the rows.
     #[serde(flatten, serialize_with = "as_reported")]
-    pub(crate) rows: RowSummary,
+    pub rows: RowSummary,
     /// How many rows have |fronts + backs + background - 1| below 1e-6, 1e-5, and so on; the last
     /// are all others.
-    pub(crate) off_by: [u64; CLOSURE_BOUNDS.len() + 1],
+    pub off_by: [u64; CLOSURE_BOUNDS.len() + 1],
     /// Those that are farthest from closed.
-    pub(crate) worst: Vec<WorstRow>,
+    pub worst: Vec<WorstRow>,
 }
 
+/// A row that does not add up.
 #[derive(Debug, Serialize)]
-pub(crate) struct WorstRow {
+pub struct WorstRow {
     /// Its number in exported tables.
-    pub(crate) row: u32,
-    pub(crate) surface: String,
-    /// fronts + backs + background - 1
-    pub(crate) excess: f64,
-    pub(crate) facts: RowFacts,
+    pub row: u32,
+    /// The surface of its patch.
+    pub surface: String,
+    /// fronts + backs + background - 1.
+    pub excess: f64,
+    /// All that is known of it.
+    pub facts: RowFacts,
 }
 
+/// A solution.
 #[derive(Debug, Serialize)]
-pub(crate) struct SolutionInspection {
-    pub(crate) patches: usize,
-    pub(crate) lights: Vec<String>,
-    pub(crate) sweeps: usize,
-    pub(crate) residual: f64,
-    pub(crate) converged: bool,
+pub struct SolutionInspection {
+    /// How many patches it is of.
+    pub patches: usize,
+    /// The names of the lights.
+    pub lights: Vec<String>,
+    /// Passes over the matrix.
+    pub sweeps: usize,
+    /// Relative residual of the worst light.
+    pub residual: f64,
+    /// Whether it is as small as was asked for.
+    pub converged: bool,
 }
 
 /// Under the names that all reports have.
@@ -58,21 +76,26 @@ fn as_reported<S: Serializer>(rows: &RowSummary, serializer: S) -> Result<S::Ok,
 
 /// An estimator with its settings.
 #[derive(Debug, Default, Serialize)]
-pub(crate) struct EstimatorReport {
-    pub(crate) mode: &'static str,
+pub struct EstimatorReport {
+    /// `regular`, `monte-carlo` or `accurate`.
+    pub mode: &'static str,
+    /// Points, or strata, along each edge of a patch.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) points: Option<u32>,
+    pub points: Option<u32>,
+    /// Pairs of points per pair of patches.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) pairs: Option<u32>,
+    pub pairs: Option<u32>,
+    /// Seed of the random points.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) seed: Option<u64>,
+    pub seed: Option<u64>,
+    /// Aimed sum of the errors of a row.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) tolerance: Option<f64>,
+    pub tolerance: Option<f64>,
 }
 
 impl EstimatorReport {
     /// In words.
-    pub(crate) fn text(&self) -> String {
+    pub fn text(&self) -> String {
         let setting = |name: &str, value: Option<String>| {
             value.map_or(String::new(), |value| format!(", {name} {value}"))
         };
@@ -86,7 +109,8 @@ impl EstimatorReport {
         .concat()
     }
 
-    pub(crate) fn of(estimator: Estimator) -> EstimatorReport {
+    /// For reports.
+    pub fn of(estimator: Estimator) -> EstimatorReport {
         match estimator {
             Estimator::Regular { points } => EstimatorReport {
                 mode: "regular",
@@ -114,13 +138,13 @@ impl EstimatorReport {
 }
 
 /// Between the classes of rows by how far from closed they are.
-pub(crate) const CLOSURE_BOUNDS: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
+pub const CLOSURE_BOUNDS: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
 /// How many of the worst rows are shown.
 const WORST: usize = 5;
 
 impl Inspection {
     /// Reads all of a file. `names` are those of the surfaces, if they are known.
-    pub(crate) fn of(opened: Opened, names: Option<&[String]>) -> Result<Inspection, Miss> {
+    pub fn of(opened: Opened, names: Option<&[String]>) -> Result<Inspection, Miss> {
         let (stage, key) = (opened.stage.clone(), opened.key.to_string());
         let mut inspection = Inspection {
             stage,

@@ -27,36 +27,34 @@
 
 mod artifact;
 mod batches;
-pub mod cli;
 mod closed;
-mod darkness;
+pub mod darkness;
 mod error;
 mod export;
 mod face_rays;
 mod factor_export;
-mod facts;
-mod inspect;
+pub mod facts;
+pub mod inspect;
 mod job;
-mod lines;
 mod machine;
 mod observer;
-mod openings;
+pub mod openings;
 mod pipeline;
-mod plot;
 mod prediction;
-mod report;
-mod resources;
+pub mod resources;
 mod row_columns;
+mod row_report;
 mod rows;
-mod settings;
-mod solve_report;
+pub mod settings;
+pub mod words;
 
 pub use artifact::{How, Origin, Sources};
 pub use error::Error;
-pub use export::{cells, radiosity_table, reference_table};
+pub use export::{cells, patch_at, radiosity_table, reference_table, table_mesh};
 pub use factor_export::{By, FactorTable};
 pub use observer::{Observer, Silent, Stage};
-pub use pipeline::{FormFactorsMade, PatchLight, Pipeline, Quantity, Shown, Solved};
+pub use pipeline::{FormFactorsMade, PatchLight, Pipeline, Quantity, Shown, Solved, covers};
+pub use row_report::RowReport;
 pub use rows::{RowSummary, Unbalanced};
 
 pub use radiosity_cache as cache;

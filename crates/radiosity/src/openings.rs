@@ -6,8 +6,8 @@ mod gaps;
 mod turned;
 
 use crate::face_rays::{cosine_rays, spread};
-use crate::lines::named;
 use crate::rows::RowSummary;
+use crate::words::named;
 use edges::Edges;
 use radiosity_geometry::{FaceId, Mesh, Occluders};
 use radiosity_scene::Scene;
@@ -22,12 +22,12 @@ const TURNED: f64 = 0.02;
 const MOST_FACES: usize = 1024;
 
 /// Whether the patches of a closed scene see what they should not.
-pub(crate) fn show_in_rows(rows: &RowSummary) -> bool {
+pub fn show_in_rows(rows: &RowSummary) -> bool {
     rows.background > OPEN || rows.exposed_backs > TURNED
 }
 
 /// The same by rays from some of the faces, before there are rows.
-pub(crate) fn show_in_rays(mesh: &Mesh) -> bool {
+pub fn show_in_rays(mesh: &Mesh) -> bool {
     let occluders = Occluders::new(mesh);
     let covered = mesh.covers.covered().iter().map(|covered| covered.face);
     let covered: BTreeSet<FaceId> = covered.collect();
@@ -80,7 +80,7 @@ impl Seen {
 }
 
 /// A line for each kind of fault of a scene that is called closed.
-pub(crate) fn warnings(scene: &Scene, mesh: &Mesh) -> Vec<String> {
+pub fn warnings(scene: &Scene, mesh: &Mesh) -> Vec<String> {
     let edges = Edges::of(mesh);
     let Turned { fewer, either } = Turned::of(mesh, &edges);
     let open = gaps::open(mesh, &edges);

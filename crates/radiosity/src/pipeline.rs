@@ -14,7 +14,7 @@ use radiosity_scene::{Material, Mode, Scene};
 use radiosity_solver::{self as solver, SolveError};
 use std::sync::OnceLock;
 
-pub(crate) mod covers;
+pub mod covers;
 mod factors;
 mod pictures;
 mod solution;
@@ -122,12 +122,12 @@ impl<'a> Pipeline<'a> {
     }
 
     /// The cache, if there is one.
-    pub(crate) fn cache(&self) -> Option<&'a Store> {
+    pub fn cache(&self) -> Option<&'a Store> {
         self.cache
     }
 
     /// Who is told what happens.
-    pub(crate) fn observer(&self) -> &dyn Observer {
+    pub fn observer(&self) -> &dyn Observer {
         self.observer
     }
 
@@ -142,7 +142,7 @@ impl<'a> Pipeline<'a> {
     }
 
     /// Why row sums of the scene's estimator may exceed 1, unless it tells its errors.
-    pub(crate) fn known_weakness(&self) -> Option<&'static str> {
+    pub fn known_weakness(&self) -> Option<&'static str> {
         match self.scene.form_factors.mode {
             Mode::Regular => Some("the regular rule overestimates patches that touch"),
             Mode::MonteCarlo => {

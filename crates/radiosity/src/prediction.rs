@@ -1,7 +1,8 @@
 //! What a long run will take, said before it begins.
 
 use crate::job::Job;
-use crate::resources::{Needs, bytes, duration, grouped};
+use crate::resources::Needs;
+use crate::words::{bytes, duration, grouped};
 use radiosity_form_factors::{Estimation, Estimator};
 use std::time::Instant;
 

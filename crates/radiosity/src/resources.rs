@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::machine::{free_disk, usable_memory};
+use crate::words::{bytes, grouped};
 use radiosity_cache::Store;
 use radiosity_form_factors::Estimator;
 use radiosity_matrix::packed_len;
@@ -9,17 +10,19 @@ use std::path::Path;
 
 /// Predicted needs of a run with its form factors computed.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Needs {
-    pub(crate) patches: usize,
+pub struct Needs {
+    /// How many patches there are.
+    pub patches: usize,
     /// The fewest patches that the scene could have: one a face.
     faces: usize,
-    pub(crate) pairs: u64,
+    /// Pairs of patches.
+    pub pairs: u64,
     /// How many matrices are there at once.
     matrices: u64,
     /// Bytes of memory at the peak.
-    pub(crate) memory: u64,
+    pub memory: u64,
     /// Bytes of the cached form factors.
-    pub(crate) disk: u64,
+    pub disk: u64,
 }
 
 /// The program itself.
@@ -36,7 +39,8 @@ const ACCURATE_POINTS: u64 = 48;
 const BYTES_PER_PIXEL: u64 = 2 * 2 * 12 + 6 + 12;
 
 impl Needs {
-    pub(crate) fn of(patches: usize, faces: usize, estimator: Estimator) -> Needs {
+    /// Those of so many patches on so many faces.
+    pub fn of(patches: usize, faces: usize, estimator: Estimator) -> Needs {
         let pairs = packed_len(patches) as u64;
         let matrix = 4 * pairs;
         let stored_points = match estimator {
@@ -59,7 +63,7 @@ impl Needs {
     }
 
     /// The same with form factors that are closed once they are estimated, if they are: both are kept.
-    pub(crate) fn with_closure(self, is_closed: bool) -> Needs {
+    pub fn with_closure(self, is_closed: bool) -> Needs {
         let copies = u64::from(is_closed);
         Needs {
             matrices: self.matrices + copies,
@@ -86,7 +90,7 @@ impl Needs {
     }
 
     /// Refuses what does not fit into memory, with a remedy.
-    pub(crate) fn check_memory(&self) -> Result<(), Error> {
+    pub fn check_memory(&self) -> Result<(), Error> {
         match usable_memory() {
             Some(usable) if self.memory > usable => Err(Error::Resources {
                 problem: format!(
@@ -124,14 +128,14 @@ impl Needs {
 }
 
 /// Refuses pictures that do not fit into memory.
-pub(crate) fn check_image(width: u32, height: u32) -> Result<(), Error> {
+pub fn check_image(width: u32, height: u32) -> Result<(), Error> {
     let needed = u64::from(width) * u64::from(height) * BYTES_PER_PIXEL;
     let what = format!("pictures of {width} x {height} pixels need");
     check_needed(&what, needed, "make them smaller (--size)")
 }
 
 /// Refuses a picture whose comparison does not fit into memory.
-pub(crate) fn check_comparison(
+pub fn check_comparison(
     path: &Path,
     (width, height): (u32, u32),
     bytes_per_pixel: u64,
@@ -149,7 +153,7 @@ pub(crate) fn check_comparison(
 }
 
 /// Refuses files that do not fit into memory.
-pub(crate) fn check_file(path: &Path, size: u64) -> Result<(), Error> {
+pub fn check_file(path: &Path, size: u64) -> Result<(), Error> {
     let what = format!("reading {} needs", path.display());
     check_needed(&what, size, "give a smaller file")
 }
@@ -179,57 +183,6 @@ fn check_needed(what: &str, needed: u64, remedy: &str) -> Result<(), Error> {
 fn two_digits(n: u64) -> u64 {
     let unit = 10u64.pow(n.checked_ilog10().unwrap_or(0).saturating_sub(1));
     n / unit * unit
-}
-
-/// A number with its thousands apart.
-pub(crate) fn grouped(n: u64) -> String {
-    let digits = n.to_string();
-    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
-    for (k, digit) in digits.chars().enumerate() {
-        if k > 0 && (digits.len() - k).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-/// How many there are of something: one of it, or more.
-pub(crate) fn counted(n: usize, [one, more]: [&str; 2]) -> String {
-    format!("{} {}", grouped(n as u64), if n == 1 { one } else { more })
-}
-
-/// For [`counted`].
-pub(crate) const SURFACES: [&str; 2] = ["surface", "surfaces"];
-/// For [`counted`].
-pub(crate) const PATCHES: [&str; 2] = ["patch", "patches"];
-/// For [`counted`].
-pub(crate) const ROWS: [&str; 2] = ["row", "rows"];
-
-/// A size in decimal units.
-pub(crate) fn bytes(n: u64) -> String {
-    let units = ["B", "kB", "MB", "GB", "TB"];
-    let mut size = n as f64;
-    let mut unit = 0;
-    while size >= 999.5 && unit + 1 < units.len() {
-        size /= 1000.0;
-        unit += 1;
-    }
-    if unit == 0 || size >= 99.5 {
-        format!("{size:.0} {}", units[unit])
-    } else {
-        format!("{size:.1} {}", units[unit])
-    }
-}
-
-/// A duration in words.
-pub(crate) fn duration(seconds: f64) -> String {
-    match seconds {
-        s if s < 1.0 => "under a second".to_owned(),
-        s if s < 100.0 => format!("about {s:.0} s"),
-        s if s < 5400.0 => format!("about {:.0} min", s / 60.0),
-        s => format!("about {:.1} h", s / 3600.0),
-    }
 }
 
 #[cfg(test)]

@@ -60,10 +60,7 @@ const ROUNDING: f64 = 1e-6;
 
 impl RowSummary {
     /// `surface_of` tells the surface of a patch, by its number in the scene.
-    pub(crate) fn of(
-        form_factors: &FormFactors,
-        surface_of: impl Fn(usize) -> usize,
-    ) -> RowSummary {
+    pub fn of(form_factors: &FormFactors, surface_of: impl Fn(usize) -> usize) -> RowSummary {
         let FormFactors {
             areas,
             rows,

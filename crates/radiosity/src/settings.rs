@@ -8,7 +8,8 @@ use radiosity_scene::{
 };
 use radiosity_solver as solver;
 
-pub(crate) fn estimator(scene: &Scene) -> Estimator {
+/// How form factors are estimated.
+pub fn estimator(scene: &Scene) -> Estimator {
     let settings = &scene.form_factors;
     let points = settings.points;
     match settings.mode {
@@ -62,7 +63,8 @@ pub(crate) fn image_params(scene: &Scene) -> ImageParams {
 /// Of pixels that are not black, so many are less bright than a screen by the automatic exposure.
 const AUTOMATIC_PERCENTILE: f64 = 0.98;
 
-pub(crate) fn tone_map(image: &ImageSettings) -> ToneMap {
+/// From radiance to levels.
+pub fn tone_map(image: &ImageSettings) -> ToneMap {
     ToneMap {
         exposure: match image.exposure.factor() {
             Some(factor) => Exposure::Fixed(factor),
@@ -80,7 +82,8 @@ pub(crate) fn tone_map(image: &ImageSettings) -> ToneMap {
     }
 }
 
-pub(crate) fn transfer(gamma: Gamma) -> Transfer {
+/// From brightness to levels.
+pub fn transfer(gamma: Gamma) -> Transfer {
     match gamma {
         Gamma::Exponent(gamma) => Transfer::Gamma(gamma),
         Gamma::Named(Standard::Srgb) => Transfer::Srgb,

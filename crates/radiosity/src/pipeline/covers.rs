@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 const MOST_TOLD: usize = 8;
 
 /// A line for each pair of surfaces of which one lies on the other: in its plane, facing the same way.
-pub(crate) fn notes(scene: &Scene, mesh: &Mesh) -> Vec<String> {
+pub fn notes(scene: &Scene, mesh: &Mesh) -> Vec<String> {
     let surface = |face: usize| mesh.faces[face].surface.index();
     let covered = mesh.covers.covered().iter();
     let pairs = covered.flat_map(|covered| {

@@ -1,0 +1,51 @@
+//! `cache list` and `cache clean`.
+
+use super::args::{CacheAction, CacheCommand};
+use super::site::Site;
+use super::terminal::say;
+use radiosity::Error;
+use radiosity::cache::{Entry, Miss, Store};
+use radiosity::words::bytes;
+
+pub(crate) fn run(command: &CacheCommand, site: &Site) -> Result<(), Error> {
+    let folder = command.folder.as_ref().unwrap_or(&site.cache);
+    let store = Store::new(folder);
+    match command.action {
+        CacheAction::List => list(&store),
+        CacheAction::Clean => {
+            let (files, size) = store.clean().map_err(Error::CacheFolder)?;
+            let folder = folder.display();
+            say(&format!(
+                "removed {files} files ({}) from {folder}",
+                bytes(size)
+            ))
+        }
+    }
+}
+
+fn list(store: &Store) -> Result<(), Error> {
+    let entries = store.list().map_err(Error::CacheFolder)?;
+    for entry in &entries {
+        say(&describe(entry))?;
+    }
+    let size = entries.iter().map(|entry| entry.bytes).sum();
+    let (count, folder) = (entries.len(), store.folder().display());
+    say(&format!("{count} artifacts ({}) in {folder}", bytes(size)))
+}
+
+fn describe(entry: &Entry) -> String {
+    let stage = match &entry.stage {
+        Ok(stage) => stage.clone(),
+        Err(Miss::Unfinished) => "unfinished".to_owned(),
+        Err(miss) => format!("unusable: {miss}"),
+    };
+    let age = entry.modified.and_then(|time| time.elapsed().ok());
+    let age = age.map_or(String::new(), |age| match age.as_secs() {
+        s if s < 60 => "just now".to_owned(),
+        s if s < 3600 => format!("{} min ago", s / 60),
+        s if s < 86_400 => format!("{} h ago", s / 3600),
+        s => format!("{} days ago", s / 86_400),
+    });
+    let name = entry.path.file_name().unwrap_or_default().to_string_lossy();
+    format!("{stage:<14}{:>8}  {age:<12}{name}", bytes(entry.bytes))
+}

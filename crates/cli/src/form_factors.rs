@@ -1,0 +1,88 @@
+//! `form-factors`.
+
+use super::args::FormFactorsCommand;
+use super::choices::ByArg;
+use super::run::{check_folder_of, store, with_threads, write_by};
+use super::site::Site;
+use super::terminal::Terminal;
+use crate::report::Report;
+use radiosity::Error;
+use radiosity::Pipeline;
+use radiosity::Sources;
+use radiosity::cache::Store;
+use radiosity::{By, FactorTable};
+use std::path::{Path, PathBuf};
+
+pub(super) fn run(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
+    let export = args.export.as_deref();
+    if let Some(path) = export {
+        check_export(path, args)?;
+    }
+    let mut scene = site.load(&args.scene.scene, args.scene.outside)?;
+    args.scene.apply(&mut scene);
+    args.estimate.apply(&mut scene);
+    let sources = if args.recompute {
+        Sources::Computed
+    } else {
+        Sources::Cached
+    };
+    let terminal = Terminal::new(args.estimate.json);
+    with_threads(args.estimate.threads, || {
+        let store = store(&args.estimate, site);
+        let pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
+        let mut report = Report::new(&scene, pipeline.mesh(), &terminal);
+        let made = pipeline.form_factors(sources)?;
+        report.form_factors(&made.origin, &made.rows, &pipeline);
+        if let Some(path) = export {
+            let by = match args.by {
+                ByArg::Patch => By::Patch,
+                ByArg::Surface => By::Surface,
+                ByArg::Group => By::Group,
+            };
+            let table = FactorTable::new(&scene, pipeline.mesh(), &made.form_factors, by)?;
+            let rows_path = export_table(&table, path, pipeline.cache(), args)?;
+            report.output("export", path);
+            report.output("export_rows", &rows_path);
+        }
+        report.finish()
+    })
+}
+
+/// Refuses what cannot be written, before anything is computed for it.
+fn check_export(path: &Path, args: &FormFactorsCommand) -> Result<(), Error> {
+    if args.sparse.is_some() && is_npy(path) {
+        return Err(Error::Input(
+            "--sparse is for .csv alone\n   = help: leave it out, or export to a path that ends in .csv"
+                .to_owned(),
+        ));
+    }
+    check_folder_of(path)
+}
+
+/// Writes the matrix, and beside it what its rows are; gives the path of that.
+fn export_table(
+    table: &FactorTable<'_>,
+    path: &Path,
+    cache: Option<&Store>,
+    args: &FormFactorsCommand,
+) -> Result<PathBuf, Error> {
+    let mut dropped = None;
+    write_by(path, cache, |file| match (args.sparse, args.by) {
+        _ if is_npy(path) => table.write_npy(file),
+        (None, ByArg::Patch) => table.write_matrix(file),
+        (least, _) => {
+            let sums = table.write_entries(least.unwrap_or(0.0), file)?;
+            dropped = least.map(|_| sums);
+            Ok(())
+        }
+    })?;
+    let rows_path = path.with_extension("rows.csv");
+    write_by(&rows_path, cache, |file| {
+        table.write_rows(dropped.as_deref(), file)
+    })?;
+    Ok(rows_path)
+}
+
+fn is_npy(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending == "npy")
+}

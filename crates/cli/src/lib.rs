@@ -1,0 +1,59 @@
+//! The command `radiosity`, which `cargo xtask` shares: arguments, progress, reports and exit codes around
+//! the engine.
+
+mod apply;
+mod args;
+mod cache_folder;
+mod check;
+mod choices;
+mod compare;
+mod display;
+mod form_factors;
+mod image_args;
+mod input;
+mod inspect;
+mod light_args;
+mod lines;
+mod live;
+mod look;
+mod parse;
+mod plot;
+mod print;
+mod printable;
+mod reference;
+mod report;
+mod run;
+mod save;
+mod series;
+mod show_args;
+mod signals;
+mod site;
+mod solve_report;
+mod solver_args;
+mod terminal;
+mod usage;
+mod view_args;
+
+pub use args::{
+    CacheAction, CacheArgs, CacheCommand, CheckArgs, Command, CompareCommand, DisplayCommand,
+    EstimateArgs, FormFactorsCommand, InspectCommand, OutsideArgs, ReferenceCommand, SceneArgs,
+    SolveCommand,
+};
+pub use image_args::{DisplayArgs, ImageArgs};
+pub use light_args::LightArgs;
+pub use run::run;
+pub use show_args::ShowArgs;
+pub use site::Site;
+pub use solver_args::SolveArgs;
+pub use usage::parse_command_line;
+pub use view_args::ViewArgs;
+
+/// For the end of help texts.
+pub const EXIT_CODES: &str = "\
+Exit codes:
+  0  done; also with warnings, such as a solution that did not reach its residual
+  1  a file cannot be written, or another failure
+  2  the command line is wrong
+  3  the scene or another input is wrong, or a cached file was changed while in use
+  4  the machine has too little memory or disk
+  5  the system of equations has no solution";

@@ -1,0 +1,115 @@
+//! What is said of scenes and artifacts, to people.
+
+use radiosity::form_factors::Classes;
+use radiosity::scene::Scene;
+use radiosity::words::{PATCHES, ROWS, SURFACES, counted};
+use radiosity::{RowSummary, Unbalanced};
+
+/// The scene, and into how many patches it is cut.
+pub(crate) fn scene_line(scene: &Scene, patches: usize) -> String {
+    format!(
+        "{:<14}{}: {}, {}",
+        "scene",
+        scene.name,
+        counted(scene.surfaces.len(), SURFACES),
+        counted(patches, PATCHES),
+    )
+}
+
+/// What rows sum to.
+pub(crate) fn row_line(rows: &RowSummary) -> String {
+    format!(
+        "sum to {:.4} on average; backs are {:.4} of what patches see, nothing {:.4}",
+        rows.mean, rows.backs, rows.background
+    )
+}
+
+/// How far the rows of a scene that says it is closed are from that.
+pub(crate) fn closed_line(rows: &RowSummary) -> String {
+    format!(
+        "the scene is closed: row sums are off 1 by {:.1e} on average, {:.1e} at worst",
+        rows.mean_error, rows.max_error
+    )
+}
+
+/// How rows were made to sum to 1, if they were.
+pub(crate) fn closure_line(rows: &RowSummary) -> Option<String> {
+    let closure = rows.closure?;
+    Some(format!(
+        "rows that see fronts alone were scaled to sum to 1: factors changed by {:.1e} of themselves at most",
+        closure.largest_change
+    ))
+}
+
+/// The estimated errors of rows, if the estimator tells.
+pub(crate) fn error_line(rows: &RowSummary) -> Option<String> {
+    let (mean, worst) = rows.estimated_error?;
+    Some(format!(
+        "the errors of a row sum to an estimated {mean:.1e} on average, {worst:.1e} at worst"
+    ))
+}
+
+/// By how much the tolerance was missed, if samples were used up.
+pub(crate) fn missed_line(rows: &RowSummary) -> Option<String> {
+    let (count, worst) = rows.missed;
+    (count > 0).then(|| {
+        format!(
+            "the tolerance is missed by up to {worst:.1e} in {}: pairs there have used up all their \
+             samples, and a smaller tolerance does not help",
+            counted(count as usize, ROWS)
+        )
+    })
+}
+
+/// So many surfaces whose rows do not add up are told.
+const MOST_UNBALANCED: usize = 3;
+
+/// The surfaces whose rows do not add up, by name.
+pub(crate) fn unbalanced_lines(rows: &RowSummary, name: impl Fn(u32) -> String) -> Vec<String> {
+    let line = |of: &Unbalanced| {
+        format!(
+            "warning: {} of `{}` do not add up: what its patches see sums to {:.4} instead of 1 at worst, \
+             more than the errors explain; do not trust these form factors",
+            counted(of.rows as usize, ROWS),
+            name(of.surface),
+            of.worst,
+        )
+    };
+    let mut lines: Vec<String> = rows
+        .unbalanced
+        .iter()
+        .take(MOST_UNBALANCED)
+        .map(line)
+        .collect();
+    let more = rows.unbalanced.len().saturating_sub(MOST_UNBALANCED);
+    if more > 0 {
+        lines.push(format!("and the same of {}", counted(more, SURFACES)));
+    }
+    lines
+}
+
+/// Pairs by how much they see of each other.
+pub(crate) fn class_line(Classes { clear, partial }: &Classes, patches: usize) -> String {
+    let pairs = radiosity::matrix::packed_len(patches).max(1) as f64;
+    let error = |error: f64| match error {
+        0.0 => "0".to_owned(),
+        error => format!("{error:.1e}"),
+    };
+    let percent = |pairs_of: u64| 100.0 * pairs_of as f64 / pairs;
+    format!(
+        "{:.1} % of the pairs are clear (error {}), {:.1} % partly hidden ({}), the others see nothing of each other",
+        percent(clear.pairs),
+        error(clear.error),
+        percent(partial.pairs),
+        error(partial.error),
+    )
+}
+
+pub(crate) fn indented(text: &str) -> String {
+    labelled("", text)
+}
+
+/// Text with a label in the first column.
+pub(crate) fn labelled(label: &str, text: &str) -> String {
+    format!("{label:<14}{text}")
+}

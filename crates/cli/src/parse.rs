@@ -1,0 +1,179 @@
+//! Values on the command line.
+
+use clap::builder::{OsStringValueParser, TypedValueParser};
+use radiosity::scene::{Automatic, Exposure, Gamma, MOST_DIMMING, Relaxation, Standard};
+use std::path::PathBuf;
+
+pub(super) fn parse_counts(text: &str) -> Result<(u32, u32), String> {
+    let counts = match text.split_once('x') {
+        Some((a, b)) => (a.parse(), b.parse()),
+        None => (text.parse(), text.parse()),
+    };
+    match counts {
+        (Ok(a), Ok(b)) if a > 0 && b > 0 => Ok((a, b)),
+        _ => Err("expected a positive whole number like 12, or two like 12x8".to_owned()),
+    }
+}
+
+pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let limits = 1..=1 << 16;
+    match parse_counts(text) {
+        Ok((w, h)) if text.contains('x') && limits.contains(&w) && limits.contains(&h) => {
+            Ok((w, h))
+        }
+        _ => Err("expected width and height between 1 and 65536, like 640x480".to_owned()),
+    }
+}
+
+pub(super) fn parse_positive(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(x) if x > 0.0 && f64::is_finite(x) => Ok(x),
+        _ => Err("expected a positive number".to_owned()),
+    }
+}
+
+pub(super) fn parse_row_tolerance(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(tolerance) if (1e-6..=0.1).contains(&tolerance) => Ok(tolerance),
+        _ => Err("must be a number from 1e-6 to 0.1".to_owned()),
+    }
+}
+
+pub(super) fn parse_tolerance(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(x) if x > 0.0 && x < 1.0 => Ok(x),
+        _ => Err("expected a number between 0 and 1, like 1e-6".to_owned()),
+    }
+}
+
+pub(super) fn parse_threshold(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(x) if (0.0..1.0).contains(&x) => Ok(x),
+        _ => Err("expected a number from 0 to 1, like 1e-6".to_owned()),
+    }
+}
+
+/// Any path that has one of these endings, whatever bytes it is made of.
+pub(super) fn path_ending_in(
+    endings: &'static [&'static str],
+) -> impl TypedValueParser<Value = PathBuf> {
+    OsStringValueParser::new().try_map(move |text| {
+        let path = PathBuf::from(text);
+        match path.extension() {
+            Some(found) if endings.iter().any(|ending| found == *ending) => Ok(path),
+            _ => Err(format!(
+                "expected a path that ends in .{}",
+                endings.join(" or .")
+            )),
+        }
+    })
+}
+
+/// `1.2` or `auto`.
+pub(super) fn parse_relaxation(text: &str) -> Result<Relaxation, String> {
+    if text == "auto" {
+        return Ok(Relaxation::Named(Automatic::Auto));
+    }
+    match text.parse() {
+        Ok(factor) if factor > 0.0 && factor < 2.0 => Ok(Relaxation::Factor(factor)),
+        _ => Err("give a number between 0 and 2, neither included, or auto".to_owned()),
+    }
+}
+
+/// `4` or `auto`.
+pub(super) fn parse_exposure(text: &str) -> Result<Exposure, String> {
+    match text {
+        "auto" => Ok(Exposure::Named(Automatic::Auto)),
+        _ => parse_positive(text).map_or_else(
+            |error| Err(format!("{error}, or auto")),
+            |factor| Ok(Exposure::Factor(factor)),
+        ),
+    }
+}
+
+/// `2.2` or `srgb`.
+pub(super) fn parse_gamma(text: &str) -> Result<Gamma, String> {
+    match text {
+        "srgb" => Ok(Gamma::Named(Standard::Srgb)),
+        _ => parse_positive(text).map_or_else(
+            |error| Err(format!("{error}, or srgb")),
+            |gamma| Ok(Gamma::Exponent(gamma)),
+        ),
+    }
+}
+
+pub(super) fn parse_angle(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(angle) if (0.0..=180.0).contains(&angle) => Ok(angle),
+        _ => Err("expected degrees from 0 to 180".to_owned()),
+    }
+}
+
+/// A patch by its surface and its place there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PatchName {
+    /// The surface.
+    pub surface: String,
+    /// As exported tables have it: the cell along either edge, or a polygon of a mesh file and the
+    /// position in it.
+    pub cell: [u32; 2],
+}
+
+/// What a picture may be scaled to; beyond, single precision ends.
+pub(super) fn parse_top(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(top) if (1e-30..=1e30).contains(&top) => Ok(top),
+        _ => Err("expected a number between 1e-30 and 1e30".to_owned()),
+    }
+}
+
+pub(super) fn parse_directions(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(count) if (1..=4096).contains(&count) => Ok(count),
+        _ => Err("expected a number from 1 to 4096; a scene's name goes before it".to_owned()),
+    }
+}
+
+/// `floor:3,4`.
+pub(super) fn parse_patch(text: &str) -> Result<PatchName, String> {
+    let known = text.rsplit_once(':').and_then(|(surface, cell)| {
+        let (a, b) = cell.split_once(',')?;
+        Some(PatchName {
+            surface: surface.to_owned(),
+            cell: [a.trim().parse().ok()?, b.trim().parse().ok()?],
+        })
+    });
+    known.ok_or(
+        "expected a surface and two numbers, as in exported tables, like floor:3,4".to_owned(),
+    )
+}
+
+/// `lamp=0.3`.
+pub(super) fn parse_dim(text: &str) -> Result<(String, f64), String> {
+    let (light, factor) = of_light(text)?;
+    Ok((light, parse_dimming(factor)?))
+}
+
+/// `lamp=1,0.8,0.6`.
+pub(super) fn parse_tint(text: &str) -> Result<(String, [f64; 3]), String> {
+    let (light, factors) = of_light(text)?;
+    let factors: Result<Vec<f64>, String> = factors.split(',').map(parse_dimming).collect();
+    let factors = <[f64; 3]>::try_from(factors?);
+    let factors = factors.map_err(|_| "give three factors: LIGHT=R,G,B".to_owned())?;
+    Ok((light, factors))
+}
+
+/// The light's name and what comes after the last `=`.
+fn of_light(text: &str) -> Result<(String, &str), String> {
+    let (light, value) = text
+        .rsplit_once('=')
+        .ok_or("give the light's name, =, and factors")?;
+    Ok((light.to_owned(), value))
+}
+
+fn parse_dimming(text: &str) -> Result<f64, String> {
+    match text.trim().parse() {
+        Ok(factor) if (0.0..=MOST_DIMMING).contains(&factor) => Ok(factor),
+        _ => Err(format!("`{text}` is not a factor between 0 and 1000")),
+    }
+}

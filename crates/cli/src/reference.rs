@@ -1,0 +1,245 @@
+//! `reference`: the oracle's pictures and tables.
+
+use super::args::ReferenceCommand;
+use super::run::{make_folder, with_threads, write};
+use super::site::Site;
+use super::terminal::{Terminal, say_json};
+use crate::lines::indented;
+use radiosity::Error;
+use radiosity::image::{Image, PictureFormat, encode, encode_pfm};
+use radiosity::reference::{Tracer, cell_means};
+use radiosity::resources::check_image;
+use radiosity::scene::Scene;
+use radiosity::settings::tone_map;
+use radiosity::words::grouped;
+use radiosity::{Observer, Stage};
+use radiosity::{reference_table, table_mesh};
+use radiosity_simd::InstructionSet;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// With fewer passes bright outliers, which are clamped, still hide most of the error.
+const FEWEST_PASSES: u32 = 16;
+/// What an interrupted run loses at most.
+const SAVE_INTERVAL: Duration = Duration::from_secs(10);
+
+/// The object that `--json` prints. Fields may be added, but not changed or removed.
+#[derive(Debug, Serialize)]
+struct Json {
+    /// The scene's name.
+    scene: String,
+    /// Random walks per pixel or patch.
+    walks: u32,
+    seconds: f64,
+    /// By whose instructions rays were traced.
+    instruction_set: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    picture: Option<PictureReport>,
+    /// How many rows the table has.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    patches: Option<usize>,
+    /// Written files: `radiance`, `standard_error` and `png`, or `table`.
+    outputs: BTreeMap<&'static str, String>,
+}
+
+#[derive(Debug, Serialize)]
+struct PictureReport {
+    /// The estimated root mean square error, in percent of the mean.
+    error_percent: f64,
+    /// Points of surfaces where walks gathered light.
+    vertices: u64,
+    vertices_per_second_and_thread: f64,
+}
+
+pub(crate) fn run(args: &ReferenceCommand, site: &Site) -> Result<(), Error> {
+    let mut scene = site.load(&args.scene, args.outside)?;
+    args.image.apply(&mut scene);
+    let folder = args.output.as_ref().unwrap_or(&site.output);
+    make_folder(folder)?;
+    let terminal = Terminal::new(args.json);
+    with_threads(args.threads, || {
+        let json = if args.cells || args.patches.is_some() {
+            table(args, &scene, folder, &terminal)?
+        } else {
+            picture(args, &scene, folder, &terminal)?
+        };
+        for path in json.outputs.values() {
+            terminal.line(&indented(path));
+        }
+        if args.json {
+            say_json(&json)?;
+        }
+        terminal.finish()
+    })
+}
+
+/// The mean radiosity of each patch, as a table.
+fn table(
+    args: &ReferenceCommand,
+    scene: &Scene,
+    folder: &Path,
+    terminal: &Terminal,
+) -> Result<Json, Error> {
+    let mesh = table_mesh(scene, args.patches)?;
+    let (start, patches) = (Instant::now(), mesh.patches.len());
+    terminal.begin(Stage::Reference, patches as u64);
+    terminal.update(
+        format!("{} patches", grouped(patches as u64)),
+        patches as u64,
+    );
+    let advance = |done| terminal.advance(done);
+    let cells = cell_means(scene, &mesh, args.spp, args.seed, &advance);
+    terminal.end();
+    let path = folder.join(format!("{}-reference.csv", scene.name));
+    write(&path, None, &reference_table(scene, &mesh, &cells).to_csv())?;
+    let seconds = start.elapsed().as_secs_f64();
+    terminal.line(&format!(
+        "{:<14}{} patches, {} walks each{seconds:>14.2} s",
+        "reference",
+        grouped(patches as u64),
+        grouped(u64::from(args.spp)),
+    ));
+    Ok(Json {
+        scene: scene.name.clone(),
+        walks: args.spp,
+        seconds,
+        instruction_set: InstructionSet::current().name(),
+        picture: None,
+        patches: Some(patches),
+        outputs: BTreeMap::from([("table", path.display().to_string())]),
+    })
+}
+
+fn picture(
+    args: &ReferenceCommand,
+    scene: &Scene,
+    folder: &Path,
+    terminal: &Terminal,
+) -> Result<Json, Error> {
+    let camera = scene
+        .first_camera()
+        .ok_or_else(|| Error::no_camera(scene))?;
+    let (width, height) = (scene.image.width, scene.image.height);
+    check_image(width, height)?;
+    let of_mesh = |error| Error::of_mesh(scene, &error);
+    let mut tracer = Tracer::new(scene, &camera, args.seed).map_err(of_mesh)?;
+    let start = Instant::now();
+    let percent = trace(args, scene, &mut tracer, folder, terminal)?;
+    let outputs = save(scene, &tracer, folder)?;
+    let seconds = start.elapsed().as_secs_f64();
+    let rate = tracer.vertices() as f64 / seconds / rayon::current_num_threads() as f64;
+    terminal.line(&format!(
+        "{:<14}{} walks per pixel, estimated error {percent:.2} %, {:.2} M vertices/s/thread{seconds:>10.2} s",
+        "reference",
+        tracer.samples(),
+        rate / 1e6,
+    ));
+    Ok(Json {
+        scene: scene.name.clone(),
+        walks: tracer.samples(),
+        seconds,
+        instruction_set: InstructionSet::current().name(),
+        picture: Some(PictureReport {
+            error_percent: percent,
+            vertices: tracer.vertices(),
+            vertices_per_second_and_thread: rate,
+        }),
+        patches: None,
+        outputs,
+    })
+}
+
+/// Adds passes until the picture is as good as was asked for, and saves it now and then; returns
+/// its estimated error in percent.
+fn trace(
+    args: &ReferenceCommand,
+    scene: &Scene,
+    tracer: &mut Tracer<'_>,
+    folder: &Path,
+    terminal: &Terminal,
+) -> Result<f64, Error> {
+    let start = Instant::now();
+    let mut saved = start;
+    let height = u64::from(scene.image.height);
+    terminal.begin(Stage::Reference, height);
+    loop {
+        tracer.pass(&|rows| terminal.advance(rows));
+        let percent = 100.0 * tracer.relative_error(scene.image.exposure.factor().unwrap_or(0.0));
+        let passes = tracer.samples() / tracer.samples_per_pass();
+        let expected = expected_passes(args, tracer, start.elapsed().as_secs_f64(), percent);
+        if passes >= expected {
+            terminal.end();
+            return Ok(percent);
+        }
+        let walks = tracer.samples();
+        terminal.update(
+            format!("{walks} walks per pixel, error {percent:.2} %"),
+            u64::from(expected) * height,
+        );
+        if saved.elapsed() >= SAVE_INTERVAL {
+            save(scene, tracer, folder)?;
+            saved = Instant::now();
+        }
+    }
+}
+
+/// How many passes the picture will have taken when it is done; no more than it has, if it is.
+fn expected_passes(args: &ReferenceCommand, tracer: &Tracer<'_>, seconds: f64, error: f64) -> u32 {
+    let passes = tracer.samples() / tracer.samples_per_pass();
+    let share = match (args.time, args.error) {
+        (Some(limit), _) => seconds / limit,
+        // Errors fall with the square root of the samples.
+        (_, Some(wanted)) => (wanted / error).powi(2),
+        _ => return args.spp.div_ceil(tracer.samples_per_pass()),
+    };
+    let least = if args.error.is_some() {
+        FEWEST_PASSES
+    } else {
+        // A standard error needs two samples.
+        2_u32.div_ceil(tracer.samples_per_pass())
+    };
+    let expected = if share >= 1.0 {
+        passes
+    } else {
+        ((f64::from(passes) / share) as u32).max(passes + 1)
+    };
+    expected.max(least)
+}
+
+/// Writes radiance and standard error as float maps, and the picture for people.
+fn save(
+    scene: &Scene,
+    tracer: &Tracer<'_>,
+    folder: &Path,
+) -> Result<BTreeMap<&'static str, String>, Error> {
+    let traced = tracer.picture();
+    let image = |pixels: &[[f64; 3]]| Image {
+        width: traced.width,
+        height: traced.height,
+        pixels: pixels
+            .iter()
+            .map(|p| p.map(|channel| channel as f32))
+            .collect(),
+    };
+    let (radiance, error) = (image(&traced.radiance), image(&traced.standard_error));
+    let tone = tone_map(&scene.image);
+    let png = encode(
+        &tone.apply(&radiance),
+        PictureFormat::Png(tone.transfer),
+        &[],
+    );
+    let files = [
+        ("radiance", "reference.pfm", encode_pfm(&radiance)),
+        ("standard_error", "reference-error.pfm", encode_pfm(&error)),
+        ("png", "reference.png", png),
+    ];
+    let mut paths = BTreeMap::new();
+    for (name, ending, bytes) in files {
+        let path = folder.join(format!("{}-{ending}", scene.name));
+        write(&path, None, &bytes)?;
+        paths.insert(name, path.display().to_string());
+    }
+    Ok(paths)
+}

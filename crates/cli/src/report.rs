@@ -1,0 +1,196 @@
+//! What a run has to say, as lines for people and as JSON for scripts.
+
+use crate::lines::{
+    class_line, closed_line, closure_line, error_line, indented, missed_line, row_line, scene_line,
+    unbalanced_lines,
+};
+use crate::solve_report::{SolveReport, solution_lines};
+use crate::terminal::{Terminal, say_json};
+use radiosity::Error;
+use radiosity::darkness;
+use radiosity::geometry::Mesh;
+use radiosity::openings;
+use radiosity::scene::Scene;
+use radiosity::words::{bytes, grouped};
+use radiosity::{How, Origin};
+use radiosity::{Pipeline, Solved};
+use radiosity::{RowReport, RowSummary};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Collects what happened; prints each line as soon as it is known.
+pub(crate) struct Report<'a> {
+    terminal: &'a Terminal,
+    json: Json,
+}
+
+/// The object that `--json` prints. Fields may be added, but not changed or removed.
+#[derive(Debug, Serialize)]
+struct Json {
+    /// The scene's name.
+    scene: String,
+    /// How many patches it was cut into.
+    patches: usize,
+    /// The stages that ran; others are absent.
+    stages: Stages,
+    /// Written files: `constant` and `smooth` for the first picture format, `constant_png` and
+    /// the like for others, `export` for a table.
+    outputs: BTreeMap<String, String>,
+}
+
+#[derive(Debug, Default, Serialize)]
+struct Stages {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    form_factors: Option<FormFactorReport>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    solve: Option<SolveReport>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    display: Option<DisplayReport>,
+}
+
+#[derive(Debug, Serialize)]
+struct FormFactorReport {
+    seconds: f64,
+    cached: bool,
+    /// Why they were computed, or that nobody needed them; null if cached.
+    reason: Option<String>,
+    #[serde(flatten)]
+    rows: RowReport,
+}
+
+/// So many files are told one by one.
+const MOST_TOLD: usize = 12;
+
+#[derive(Debug, Serialize)]
+pub(crate) struct DisplayReport {
+    pub(crate) seconds: f64,
+}
+
+impl<'a> Report<'a> {
+    pub(crate) fn new(scene: &Scene, mesh: &Mesh, terminal: &'a Terminal) -> Report<'a> {
+        let patches = mesh.patches.len();
+        terminal.line(&scene_line(scene, patches));
+        Report {
+            terminal,
+            json: Json {
+                scene: scene.name.clone(),
+                patches,
+                stages: Stages::default(),
+                outputs: BTreeMap::new(),
+            },
+        }
+    }
+
+    pub(crate) fn form_factors(
+        &mut self,
+        origin: &Origin,
+        rows: &RowSummary,
+        pipeline: &Pipeline<'_>,
+    ) {
+        self.stage_line("form factors", origin);
+        self.terminal
+            .line(&indented(&format!("rows {}", row_line(rows))));
+        let errors = error_line(rows).into_iter().chain(missed_line(rows));
+        for line in errors.chain(closure_line(rows)) {
+            self.terminal.line(&indented(&line));
+        }
+        if pipeline.scene().closed {
+            self.terminal.line(&indented(&closed_line(rows)));
+            if openings::show_in_rows(rows) {
+                for line in openings::warnings(pipeline.scene(), pipeline.mesh()) {
+                    self.terminal.line(&indented(&line));
+                }
+            }
+        }
+        if let Some(classes) = &rows.classes {
+            let patches = pipeline.mesh().patches.len();
+            self.terminal.line(&indented(&class_line(classes, patches)));
+        }
+        if rows.excessive > 0
+            && let Some(weakness) = pipeline.known_weakness()
+        {
+            let patches = pipeline.mesh().patches.len() as u64;
+            let (sum, patch) = rows.largest;
+            self.terminal.line(&indented(&format!(
+                "warning: {} of {} rows sum to more than 1.001, the worst to {sum:.3} (in `{}`): {weakness}",
+                grouped(rows.excessive),
+                grouped(patches),
+                pipeline.surface_name(patch as usize),
+            )));
+        }
+        let surfaces = &pipeline.scene().surfaces;
+        let name = |surface: u32| match surfaces.get(surface as usize) {
+            Some(surface) => surface.name.clone(),
+            None => format!("surface {surface}"),
+        };
+        for line in unbalanced_lines(rows, name) {
+            self.terminal.line(&indented(&line));
+        }
+        self.json.stages.form_factors = Some(FormFactorReport {
+            seconds: origin.seconds,
+            cached: origin.is_cached(),
+            reason: origin.reason().map(str::to_owned),
+            rows: RowReport::of(rows),
+        });
+    }
+
+    pub(crate) fn solution(&mut self, solved: &Solved, pipeline: &Pipeline<'_>) {
+        self.stage_line("solution", &solved.origin);
+        let light = darkness::light_lines(pipeline, &solved.energy);
+        for line in solution_lines(solved).into_iter().chain(light) {
+            self.terminal.line(&indented(&line));
+        }
+        self.json.stages.solve = Some(SolveReport::of(solved));
+    }
+
+    pub(crate) fn display(&mut self, display: DisplayReport) {
+        let seconds = format!("{:.2} s", display.seconds);
+        self.terminal
+            .line(&format!("{:<14}{:<36}{seconds:>9}", "pictures", "rendered"));
+        self.json.stages.display = Some(display);
+    }
+
+    /// Many files, of which not all are told to people.
+    pub(crate) fn outputs(&mut self, files: BTreeMap<String, PathBuf>) {
+        let more = files.len().saturating_sub(MOST_TOLD);
+        for (index, (name, path)) in files.into_iter().enumerate() {
+            if more <= 1 || index < MOST_TOLD {
+                self.output(&name, &path);
+            } else {
+                self.json.outputs.insert(name, path.display().to_string());
+            }
+        }
+        if more > 1 {
+            self.terminal
+                .line(&indented(&format!("and {more} more files beside them")));
+        }
+    }
+
+    pub(crate) fn output(&mut self, name: &str, path: &Path) {
+        let path = path.display().to_string();
+        self.terminal.line(&indented(&path));
+        self.json.outputs.insert(name.to_owned(), path);
+    }
+
+    /// Prints the JSON object, if one is wanted; an error if something could not be printed.
+    pub(crate) fn finish(&self) -> Result<(), Error> {
+        if self.terminal.json {
+            say_json(&self.json)?;
+        }
+        self.terminal.finish()
+    }
+
+    fn stage_line(&self, stage: &str, origin: &Origin) {
+        let how = match &origin.how {
+            How::Cached => "cached".to_owned(),
+            How::Computed(reason) => format!("computed ({reason})"),
+            How::NotNeeded => "not needed".to_owned(),
+        };
+        let file = origin.file.as_ref().and_then(|file| file.file_name());
+        let file = file.unwrap_or_default().to_string_lossy();
+        let (seconds, size) = (format!("{:.2} s", origin.seconds), bytes(origin.bytes));
+        let line = format!("{stage:<14}{how:<36}{seconds:>9}{size:>9}  {file}");
+        self.terminal.line(line.trim_end());
+    }
+}

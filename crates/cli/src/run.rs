@@ -1,0 +1,209 @@
+//! What each command does.
+
+use super::args::{Command, EstimateArgs, SolveCommand};
+use super::cache_folder;
+use super::check;
+use super::compare;
+use super::display;
+use super::form_factors;
+use super::inspect;
+use super::reference;
+use super::signals::remove_unfinished_on_signals;
+use super::site::Site;
+use super::terminal::{Terminal, tell};
+use crate::plot::convergence_plot;
+use crate::report::Report;
+use radiosity::Error;
+use radiosity::cache::{Changed, Store, replace_file_by};
+use radiosity::radiosity_table;
+use radiosity::{How, Sources};
+use radiosity::{PatchLight, Pipeline};
+use radiosity_simd::InstructionSet;
+use std::io;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Runs a command and prints what it has to say; the exit code is 0, or that of the error.
+pub fn run(command: &Command, site: &Site) -> ExitCode {
+    // A comparison does it when it has something to write: see there.
+    if !matches!(command, Command::Compare(_)) {
+        remove_unfinished_on_signals();
+    }
+    if let Some(wish) = InstructionSet::unknown_wish() {
+        let best = InstructionSet::current().name();
+        tell(&format!(
+            "warning: RADIOSITY_SIMD is `{wish}`, which this machine does not have: {best} is used"
+        ));
+    }
+    let result = match command {
+        Command::Render(args) | Command::Display(args) => display::run(args, site),
+        Command::FormFactors(args) => form_factors::run(args, site),
+        Command::Solve(args) => solve(args, site, Sources::Computed),
+        Command::Relight(args) => solve(args, site, Sources::Cached),
+        Command::Reference(args) => reference::run(args, site),
+        Command::Compare(args) => compare::run(args, site),
+        Command::Check(args) => check::run(args, site),
+        Command::Cache(args) => cache_folder::run(args, site),
+        Command::Inspect(args) => inspect::run(args, site),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            tell(&error.to_string());
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+/// `sources` says whether a cached solution will do.
+fn solve(args: &SolveCommand, site: &Site, sources: Sources) -> Result<(), Error> {
+    let mut scene = site.load(&args.scene.scene, args.scene.outside)?;
+    args.scene.apply(&mut scene);
+    args.estimate.apply(&mut scene);
+    args.solve.apply(&mut scene);
+    args.lights.apply(&mut scene)?;
+    for path in args.export.iter().chain(&args.plot) {
+        check_folder_of(path)?;
+    }
+    let terminal = Terminal::new(args.estimate.json);
+    with_threads(args.estimate.threads, || {
+        let store = store(&args.estimate, site);
+        let pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
+        let mut report = Report::new(&scene, pipeline.mesh(), &terminal);
+        let (light, _) = light(&pipeline, sources, &mut report)?;
+        if let Some(path) = &args.export {
+            write(
+                path,
+                pipeline.cache(),
+                &radiosity_table(&scene, pipeline.mesh(), &pipeline.mean_radiosity(&light))
+                    .to_csv(),
+            )?;
+            report.output("export", path);
+        }
+        if let Some(path) = &args.plot {
+            let made = pipeline.form_factors(Sources::Cached)?.form_factors;
+            let plot = convergence_plot(&pipeline, &made)?;
+            write(path, pipeline.cache(), plot.as_bytes())?;
+            report.output("plot", path);
+        }
+        report.finish()
+    })
+}
+
+/// What patches shine with, with each stage reported as soon as it is done; and how the form factors were
+/// come by.
+pub(super) fn light(
+    pipeline: &Pipeline<'_>,
+    sources: Sources,
+    report: &mut Report<'_>,
+) -> Result<(PatchLight, How), Error> {
+    let solved = pipeline.solution_after(sources, &mut |origin, rows| {
+        report.form_factors(origin, rows, pipeline);
+    })?;
+    report.solution(&solved, pipeline);
+    Ok((solved.light, solved.form_factors.how))
+}
+
+pub(super) fn store(args: &EstimateArgs, site: &Site) -> Option<Store> {
+    let folder = args.cache.folder.as_ref().unwrap_or(&site.cache);
+    (!args.cache.no_cache).then(|| Store::new(folder))
+}
+
+/// Runs with so many threads, or as many as there are processors.
+pub(super) fn with_threads(
+    threads: Option<u32>,
+    run: impl FnOnce() -> Result<(), Error> + Send,
+) -> Result<(), Error> {
+    let count = threads.map_or(0, |count| count as usize);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
+    let pool = pool.map_err(|error| Error::Resources {
+        problem: format!("cannot start threads: {error}"),
+        remedy: "use fewer (--threads)".to_owned(),
+    })?;
+    pool.install(run)
+}
+
+/// Refuses a result in a folder that does not exist, before anything is computed for it.
+pub(super) fn check_folder_of(path: &Path) -> Result<(), Error> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let error = match std::fs::metadata(folder) {
+        Ok(_) if path.is_dir() => std::io::ErrorKind::IsADirectory.into(),
+        Ok(metadata) if metadata.is_dir() => return Ok(()),
+        Ok(_) => std::io::ErrorKind::NotADirectory.into(),
+        Err(error) => error,
+    };
+    Err(Error::Output {
+        path: path.to_owned(),
+        error,
+    })
+}
+
+/// Makes the folder of a result before anything is computed for it.
+pub(super) fn make_folder(folder: &Path) -> Result<(), Error> {
+    std::fs::create_dir_all(folder).map_err(|error| Error::Output {
+        path: folder.to_owned(),
+        error,
+    })
+}
+
+/// Writes a result. `cache` is that of what it was made of, if it has one.
+pub(super) fn write(path: &Path, cache: Option<&Store>, bytes: &[u8]) -> Result<(), Error> {
+    write_by(path, cache, |file| file.write_all(bytes))
+}
+
+/// The same for what is written bit by bit.
+pub(super) fn write_by(
+    path: &Path,
+    cache: Option<&Store>,
+    write: impl FnOnce(&mut dyn io::Write) -> io::Result<()>,
+) -> Result<(), Error> {
+    let written = replace_file_by(path, |file| {
+        write(file)?;
+        cache.map_or(Ok(()), Store::check).map_err(io::Error::other)
+    });
+    written.map_err(|error| match error.downcast::<Changed>() {
+        Ok(changed) => Error::Changed(changed),
+        Err(error) => Error::Output {
+            path: path.to_owned(),
+            error,
+        },
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use radiosity::cache::{Id, Key};
+    use std::fs::OpenOptions;
+
+    #[test]
+    fn nothing_is_written_of_a_file_that_was_changed_meanwhile() {
+        let folder = tempfile::TempDir::new().unwrap();
+        let store = Store::new(folder.path().join("cache"));
+        let id = Id {
+            scene: "box",
+            stage: "form-factors",
+            key: Key::of("form-factors", 1, &()),
+        };
+        // Too large to be read at once.
+        store.write(&id, &(), &vec![0.0; 17 << 20]).unwrap();
+        let in_use = store.read::<()>(&id).unwrap().into_values().unwrap();
+        let path = folder.path().join("result.csv");
+        write(&path, Some(&store), b"good").unwrap();
+        let file = OpenOptions::new().append(true).open(store.path(&id));
+        io::Write::write_all(&mut file.unwrap(), b"more").unwrap();
+        let refused = write(&path, Some(&store), b"bad").unwrap_err();
+        drop(in_use);
+        assert_eq!(refused.exit_code(), 3);
+        assert!(
+            refused
+                .to_string()
+                .contains("was changed while it was in use")
+        );
+        assert_eq!(std::fs::read(&path).unwrap(), b"good");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
+    }
+}

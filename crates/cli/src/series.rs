@@ -1,0 +1,172 @@
+//! All pictures of a run: every look, from everywhere, by every shading.
+
+use super::image_args::DisplayArgs;
+use super::live::Live;
+use super::look::Look;
+use super::print::{Palette, Print};
+use super::save::Folder;
+use super::view_args::Shot;
+use radiosity::Error;
+use radiosity::darkness;
+use radiosity::image::{Image, Rgb8Image, Transfer, contact_sheet, thumbnail_width};
+use radiosity::renderer::{Outlines, Renderer, Shading};
+use radiosity::{PatchLight, Pipeline, Quantity};
+use std::cell::OnceCell;
+use std::collections::BTreeSet;
+
+/// What is to be made, and what has been.
+pub(super) struct Series<'a> {
+    pub(super) args: &'a DisplayArgs,
+    pub(super) pipeline: &'a Pipeline<'a>,
+    pub(super) looks: &'a [Look],
+    pub(super) shots: &'a [Shot],
+    pub(super) live: Live,
+    pub(super) folder: Folder<'a>,
+    pub(super) sheet: Sheet,
+}
+
+/// What goes on the sheet.
+#[derive(Default)]
+pub(super) struct Sheet {
+    pictures: Vec<(String, Rgb8Image)>,
+    /// Of the first picture; the others are shown by it.
+    transfer: Option<Transfer>,
+}
+
+impl Series<'_> {
+    /// Takes and saves all pictures.
+    pub(super) fn take(&mut self, light: &PatchLight) -> Result<(), Error> {
+        for look in self.looks {
+            let shadings = look.shadings(&self.args.shadings());
+            let shown = self.pipeline.shown(light, look.quantity)?;
+            let renderer = self.pipeline.renderer(&shown, &shadings);
+            let mut fixed = None;
+            for shot in self.shots {
+                self.glance(look, &renderer, shot, fixed.as_ref());
+                let images = self.pipeline.look(&renderer, &shot.camera)?;
+                let is_black = !images.iter().any(Image::shows_something);
+                if is_black && look.quantity == Quantity::Radiosity {
+                    self.say_why_black(shot);
+                }
+                let outlines = self.outlines(look, shot);
+                for (image, &shading) in images.iter().zip(&shadings) {
+                    let palette = self.palette(look, image, fixed.as_ref());
+                    let print = Print {
+                        palette: &palette,
+                        image,
+                        outlines: outlines.as_ref(),
+                        // Between patches of one number there is nothing to tell.
+                        isolines: self.args.show.isolines && shading != Shading::Constant,
+                        patch_lines: self.args.show.patch_lines,
+                        shown: OnceCell::new(),
+                    };
+                    self.keep(name_of(look, shot, shading), &print)?;
+                    // Numbers have the same colours in all pictures, and films do not flicker; but
+                    // what shows nothing tells nothing of the others.
+                    let is_shared =
+                        self.args.views.is_film() || matches!(palette, Palette::Colors(..));
+                    if is_shared && fixed.is_none() && image.shows_something() {
+                        fixed = Some(palette);
+                    }
+                }
+            }
+        }
+        if let Some(transfer) = self.sheet.transfer {
+            let sheet = contact_sheet(&self.sheet.pictures);
+            self.folder.save_sheet(&sheet, transfer)?;
+        }
+        Ok(())
+    }
+
+    fn say_why_black(&self, shot: &Shot) {
+        let of_view = shot.name.as_ref();
+        let of_view = of_view.map_or(String::new(), |name| format!(" of view `{name}`"));
+        let why = darkness::of_picture(self.pipeline, &shot.camera, self.size());
+        let warning = format!("warning: the picture{of_view} is black: {why}");
+        self.pipeline.observer().note(&warning);
+    }
+
+    /// Shows a small picture in the terminal.
+    fn glance(
+        &mut self,
+        look: &Look,
+        renderer: &Renderer<'_>,
+        shot: &Shot,
+        fixed: Option<&Palette>,
+    ) {
+        if let Some(small) = self.live.size(self.size()) {
+            let glance = self.pipeline.glance(renderer, &shot.camera, small);
+            let image = glance.last().expect("there is a shading");
+            let palette = self.palette(look, image, fixed);
+            self.live.show(&palette.paint(image));
+        }
+    }
+
+    fn keep(&mut self, name: String, print: &Print<'_>) -> Result<(), Error> {
+        self.folder.save(&name, print)?;
+        if self.args.views.sheet {
+            let thumbnail = print.screen().thumbnail(self.thumbnail_width());
+            self.sheet.transfer.get_or_insert(print.palette.transfer());
+            self.sheet.pictures.push((name, thumbnail));
+        }
+        Ok(())
+    }
+
+    /// So that the pictures of the whole run fit on a sheet.
+    fn thumbnail_width(&self) -> u32 {
+        let wanted = self.args.shadings();
+        let looks = self.looks.iter();
+        let of_shot: usize = looks.map(|look| look.shadings(&wanted).len()).sum();
+        thumbnail_width(of_shot * self.shots.len())
+    }
+
+    fn outlines(&self, look: &Look, shot: &Shot) -> Option<Outlines> {
+        let show = &self.args.show;
+        let has_lines = show.patch_lines || show.isolines && look.is_number();
+        let seen = (&shot.camera, self.pipeline.scene().image.backs);
+        has_lines.then(|| Outlines::new(self.pipeline.mesh(), seen, self.size()))
+    }
+
+    fn palette(&self, look: &Look, image: &Image, fixed: Option<&Palette>) -> Palette {
+        let is_film = self.args.views.is_film();
+        fixed
+            .cloned()
+            .unwrap_or_else(|| look.palette(image, &self.args.show, self.pipeline.scene(), is_film))
+    }
+
+    fn size(&self) -> (u32, u32) {
+        let image = &self.pipeline.scene().image;
+        (image.width, image.height)
+    }
+}
+
+/// Refuses pictures that would have one name.
+pub(super) fn check_names(args: &DisplayArgs, looks: &[Look], shots: &[Shot]) -> Result<(), Error> {
+    let mut names = BTreeSet::new();
+    for look in looks {
+        for shading in look.shadings(&args.shadings()) {
+            for shot in shots {
+                let name = name_of(look, shot, shading);
+                if !names.insert(name.clone()) {
+                    return Err(Error::Input(format!(
+                        "two pictures would be called `{name}`\n   \
+                         = help: rename the view that is called as something that is shown"
+                    )));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// View, what is shown, and shading, as far as they are not the usual ones.
+fn name_of(look: &Look, shot: &Shot, shading: Shading) -> String {
+    let shading = match shading {
+        Shading::Constant => "constant",
+        Shading::Smooth => "smooth",
+        Shading::Exact => "exact",
+        Shading::Gathered => "gathered",
+    };
+    let parts = [shot.name.as_deref(), look.name, Some(shading)];
+    parts.into_iter().flatten().collect::<Vec<_>>().join("-")
+}

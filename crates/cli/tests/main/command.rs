@@ -1,0 +1,258 @@
+//! The command as its users and their scripts meet it.
+
+use crate::place::Place;
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+/// An L of six corners, and a triangle beside it.
+const BENT: &str = "v 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nv 3 0 0\n\
+    f 1 2 3 4 5 6\nf 1 7 2\n";
+
+fn keys(value: &Value) -> Vec<&str> {
+    value
+        .as_object()
+        .unwrap()
+        .keys()
+        .map(String::as_str)
+        .collect()
+}
+
+#[test]
+fn render_reports_one_json_object() {
+    let place = Place::new();
+    let report = place.json("render room.toml --cache c -o pictures");
+    assert_eq!(keys(&report), ["outputs", "patches", "scene", "stages"]);
+    assert_eq!(report["scene"], "room");
+    assert_eq!(report["patches"], 9 + 1 + 4 + 3);
+    let stages = &report["stages"];
+    assert_eq!(keys(stages), ["display", "form_factors", "solve"]);
+    assert_eq!(
+        keys(&stages["form_factors"]),
+        [
+            "cached",
+            "classes",
+            "reason",
+            "row_background_mean",
+            "row_backs_mean",
+            "row_error_max",
+            "row_error_mean",
+            "row_sum_max_error",
+            "row_sum_mean",
+            "row_sum_mean_error",
+            "rows_unbalanced",
+            "seconds"
+        ]
+    );
+    assert_eq!(
+        keys(&stages["solve"]),
+        [
+            "cached",
+            "converged",
+            "energy_balance",
+            "error",
+            "method",
+            "reason",
+            "relaxation",
+            "residual",
+            "seconds",
+            "stalled",
+            "sweeps"
+        ]
+    );
+    assert_eq!(keys(&stages["display"]), ["seconds"]);
+    assert_eq!(stages["solve"]["reason"], "nothing cached yet");
+    assert_eq!(
+        keys(&report["outputs"]),
+        ["constant", "constant_png", "smooth", "smooth_png"]
+    );
+    for path in report["outputs"].as_object().unwrap().values() {
+        assert!(place.path(path.as_str().unwrap()).is_file());
+    }
+}
+
+#[test]
+fn a_second_render_computes_neither_form_factors_nor_solution() {
+    let place = Place::new();
+    let cold = place.json("render room.toml --cache c");
+    let pictures = || fs::read(place.path("out/room-smooth.png")).unwrap();
+    let first = pictures();
+    let warm = place.json("render room.toml --cache c");
+    for stage in ["form_factors", "solve"] {
+        assert_eq!(cold["stages"][stage]["cached"], false);
+        assert_eq!(warm["stages"][stage]["cached"], true);
+        assert_eq!(warm["stages"][stage]["reason"], Value::Null);
+    }
+    for figure in ["row_sum_mean", "row_sum_max_error"] {
+        let [a, b] = [&cold, &warm].map(|r| r["stages"]["form_factors"][figure].clone());
+        assert_eq!(a, b);
+    }
+    assert_eq!(pictures(), first);
+}
+
+#[test]
+fn stages_rerun_alone() {
+    let place = Place::new();
+    place.succeed("form-factors room.toml --cache c");
+    let solved = place.json("solve room.toml --cache c");
+    assert_eq!(solved["stages"]["form_factors"]["cached"], true);
+    assert_eq!(solved["stages"]["solve"]["cached"], false);
+    let again = place.json("solve room.toml --cache c");
+    assert_eq!(again["stages"]["solve"]["reason"], "asked for");
+    let shown = place.json("display room.toml --cache c --size 8x8 --exposure 2");
+    assert_eq!(shown["stages"]["solve"]["cached"], true);
+    let forced = place.json("form-factors room.toml --cache c --recompute");
+    assert_eq!(forced["stages"]["form_factors"]["reason"], "asked for");
+    assert_eq!(keys(&forced["stages"]), ["form_factors"]);
+}
+
+#[test]
+fn flags_override_the_scene() {
+    let place = Place::new();
+    let report = place.json("render room.toml --no-cache --patches 2x5 --size 7x5");
+    assert_eq!(report["patches"], 10 + 1 + 4 + 3);
+    let header = fs::read(place.path("out/room-constant.ppm")).unwrap();
+    assert!(header.starts_with(b"P6\n7 5\n255\n"));
+    assert_eq!(report["stages"]["solve"]["reason"], "caching is off");
+    let by_length = place.json("solve room.toml --no-cache --max-patch-edge 0.25");
+    assert_eq!(
+        by_length["patches"],
+        16 + 1 + 4 + 2 * 2 + 2 * 4,
+        "meshes are cut by length too"
+    );
+    let loose = place.json("solve room.toml --no-cache --residual 0.1 --max-sweeps 1");
+    assert_eq!(loose["stages"]["solve"]["sweeps"], 1);
+}
+
+#[test]
+fn plain_ppm_is_text() {
+    let place = Place::new();
+    let report = place.json("render room.toml --no-cache --format plain-ppm");
+    assert_eq!(report["outputs"]["smooth"], "out/room-smooth.plain.ppm");
+    let text = fs::read_to_string(place.path("out/room-smooth.plain.ppm")).unwrap();
+    assert!(text.starts_with("P3\n16 12\n255\n"));
+    assert_eq!(text.split_whitespace().count(), 4 + 3 * 16 * 12);
+}
+
+#[test]
+fn existing_pictures_are_replaced() {
+    let place = Place::new();
+    fs::create_dir(place.path("out")).unwrap();
+    place.write("out/room-smooth.png", "old");
+    place.succeed("render room.toml --no-cache");
+    let picture = fs::read(place.path("out/room-smooth.png")).unwrap();
+    assert!(picture.starts_with(b"\x89PNG"));
+    let left = fs::read_dir(place.path("out")).unwrap().count();
+    assert_eq!(left, 4, "nothing but the pictures stays");
+}
+
+#[test]
+fn thread_counts_leave_no_trace_in_any_file() {
+    let place = Place::new();
+    for threads in [1, 3] {
+        place.succeed(&format!(
+            "render room.toml --threads {threads} --cache c{threads} -o o{threads}"
+        ));
+    }
+    for (a, b) in [("c1", "c3"), ("o1", "o3")] {
+        let names = |folder: &str| {
+            let entries = fs::read_dir(place.path(folder)).unwrap();
+            let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name()).collect();
+            names.sort();
+            names
+        };
+        assert_eq!(names(a), names(b));
+        for name in names(a) {
+            let [x, y] = [a, b].map(|folder| fs::read(place.path(folder).join(&name)).unwrap());
+            assert_eq!(x, y, "{}", Path::new(&name).display());
+        }
+    }
+}
+
+#[test]
+fn radiosities_are_exported_in_input_order() {
+    let place = Place::new();
+    let report = place.json("solve room.toml --no-cache --export table.csv");
+    assert_eq!(report["outputs"]["export"], "table.csv");
+    let table = fs::read_to_string(place.path("table.csv")).unwrap();
+    let cells: Vec<String> = table
+        .lines()
+        .map(|line| line.rsplitn(4, ',').last().unwrap().to_owned())
+        .collect();
+    assert_eq!(table.lines().next(), Some("surface,ia,ib,B_r,B_g,B_b"));
+    assert_eq!(cells[1..4], ["floor,0,0", "floor,0,1", "floor,0,2"]);
+    assert_eq!(cells[10], "\"lamp, the only one\",0,0");
+    assert_eq!(
+        cells[11..15],
+        ["wing,0,0", "wing,0,1", "wing,0,2", "wing,1,0"]
+    );
+    assert_eq!(cells[15..], ["block,0,0", "block,1,0", "block,2,0"]);
+    place.write("block.obj", BENT);
+    place.succeed("solve room.toml --no-cache --export bent.csv");
+    let bent = fs::read_to_string(place.path("bent.csv")).unwrap();
+    let cell = |line: &str| line.split(',').take(3).collect::<Vec<_>>().join(",");
+    let cells: Vec<String> = bent.lines().skip(15).map(cell).collect();
+    assert_eq!(
+        cells,
+        [
+            "block,0,0",
+            "block,0,1",
+            "block,0,2",
+            "block,0,3",
+            "block,1,0"
+        ]
+    );
+    let lamp = table.lines().nth(10).unwrap();
+    assert!(
+        lamp.ends_with(",4,3,2"),
+        "a black lamp shows what it emits: {lamp}"
+    );
+}
+
+#[test]
+fn the_cache_is_listed_and_emptied() {
+    let place = Place::new();
+    assert!(place.succeed("cache list").starts_with("0 artifacts"));
+    place.succeed("render room.toml");
+    let list = place.succeed("cache list");
+    assert!(
+        list.contains("form-factors") && list.contains("solution"),
+        "{list}"
+    );
+    assert!(
+        list.contains("2 artifacts") && list.contains("platform-cache"),
+        "{list}"
+    );
+    assert!(place.succeed("cache clean").starts_with("removed 2 files"));
+    assert!(place.succeed("cache list").starts_with("0 artifacts"));
+}
+
+#[test]
+fn check_computes_nothing() {
+    let place = Place::new();
+    let said = place.succeed("check room.toml --patches 100");
+    assert!(
+        said.contains("10,008 patches") && said.contains("201 MB of disk"),
+        "{said}"
+    );
+    assert!(!place.path("out").exists() && !place.path("platform-cache").exists());
+}
+
+#[test]
+fn nothing_but_text_is_printed_where_there_is_no_terminal() {
+    let place = Place::new();
+    let (_, stdout, stderr) = place.run("render room.toml --mode regular --points 8 --patches 6");
+    assert!(
+        !stdout.contains('\x1b') && !stderr.contains('\x1b'),
+        "{stderr}"
+    );
+    assert_eq!(stderr, "");
+}
+
+#[test]
+fn help_is_for_strangers() {
+    let place = Place::new();
+    let mut help = place.succeed("--help");
+    help += &place.succeed("help render");
+    insta::assert_snapshot!(help);
+}

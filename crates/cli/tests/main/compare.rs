@@ -1,0 +1,256 @@
+//! Comparing results on the command line.
+
+use crate::place::Place;
+use std::fs;
+
+/// A picture against itself as levels errs by the rounding of levels and nothing more; the
+/// exposure and gamma come from the scene.
+#[test]
+fn pictures_of_all_formats_are_compared() {
+    let place = Place::new();
+    place.succeed("reference room.toml --spp 8");
+    let compare = "compare out/room-reference.png out/room-reference.pfm --scene room.toml";
+    let json = place.json(&format!("{compare} --difference levels.png"));
+    let all = &json["regions"]["all"];
+    let percent = |value: &serde_json::Value| value.as_f64().unwrap() / 100.0;
+    let (rmse, max) = (
+        percent(&all["rmse_percent"]),
+        percent(&all["percentiles"]["max"]),
+    );
+    let map = fs::read(place.path("out/room-reference.pfm")).unwrap();
+    let mean = mean_of_unclamped(&map);
+    // Half a level of brightness: gamma / 510 where a level is brightest, in the scene's exposure 1.
+    let half_a_level = 2.2 / 510.0 / mean;
+    assert!(0.0 < rmse && rmse < max && max < half_a_level, "{json}");
+    assert_eq!(json["difference"], "levels.png");
+    assert!(
+        fs::read(place.path("levels.png"))
+            .unwrap()
+            .starts_with(b"\x89PNG")
+    );
+    let said = place.succeed("compare out/room-reference.pfm out/room-reference.pfm");
+    assert!(said.contains("all"), "{said}");
+    place.succeed("compare out/room-reference.pfm out/room-reference.pfm --difference zero.pfm");
+    let zero = fs::read(place.path("zero.pfm")).unwrap();
+    assert!(zero[14..].iter().all(|&byte| byte == 0));
+}
+
+/// The mean of the pixels of a float map that are at most 1 in all channels.
+fn mean_of_unclamped(map: &[u8]) -> f64 {
+    let values: Vec<f32> = map[14..]
+        .as_chunks::<4>()
+        .0
+        .iter()
+        .map(|&four| f32::from_le_bytes(four))
+        .collect();
+    let pixels = values.as_chunks::<3>().0.iter();
+    let unclamped: Vec<_> = pixels.filter(|p| p.iter().all(|&c| c <= 1.0)).collect();
+    let sum: f64 = unclamped
+        .iter()
+        .flat_map(|p| p.iter())
+        .map(|&c| f64::from(c))
+        .sum();
+    sum / (3.0 * unclamped.len() as f64)
+}
+
+/// The solver's table against the oracle's, both of the same patches.
+#[test]
+fn tables_are_compared() {
+    let place = Place::new();
+    let flat = evenly_cut();
+    place.write("flat.toml", &flat);
+    place.succeed("reference flat.toml --patches 3 --spp 2000");
+    place.succeed("solve flat.toml --no-cache --patches 3 --export solved.csv");
+    let compare = "compare solved.csv out/flat-reference.csv --scene flat.toml --patches 3";
+    let json = place.json(compare);
+    let surfaces = json["regions"].as_object().unwrap();
+    let names: Vec<&str> = surfaces.keys().map(String::as_str).collect();
+    assert_eq!(names, ["all", "block", "floor", "wing"]);
+    let rmse = json["regions"]["all"]["rmse_percent"].as_f64().unwrap();
+    assert!(0.0 < rmse && rmse < 50.0, "{json}");
+    let said = place.succeed(compare);
+    assert!(said.contains("the reference's own noise is"), "{said}");
+    assert!(
+        said.contains("left out: lamp, the only one (emits)"),
+        "{said}"
+    );
+    let itself = place.json("compare solved.csv solved.csv --scene flat.toml --patches 3");
+    assert_eq!(itself["regions"]["all"]["rmse_percent"], 0.0);
+}
+
+/// The scene of [`crate::place::SCENE`] without divisions of single surfaces.
+fn evenly_cut() -> String {
+    crate::place::SCENE
+        .replace("divisions = 1\n", "")
+        .replace("divisions = 2\n", "")
+}
+
+#[test]
+fn what_cannot_be_compared_is_said() {
+    let place = Place::new();
+    place.write("a.csv", "surface,ia,ib,B_r,B_g,B_b\n");
+    place.write("a.ppm", "P3 1 1 255 1 2 3\n");
+    place.write("b.ppm", "P3 2 1 255 1 2 3 4 5 6\n");
+    for (arguments, expected) in [
+        ("compare a.csv a.csv", "name their --scene"),
+        ("compare a.ppm a.csv", "cannot be compared with a table"),
+        (
+            "compare a.csv a.csv --scene room.toml",
+            "the table lacks patch",
+        ),
+        (
+            "compare a.ppm b.ppm",
+            "1 x 1 pixels, but the reference 2 x 1",
+        ),
+        (
+            "compare a.ppm a.ppm --regions b.ppm",
+            "b.ppm is not a good PNG",
+        ),
+        ("compare none.png a.ppm", "cannot read none.png"),
+        (
+            "compare a.ppm a.ppm --patches 3",
+            "--patches and --coarsen are for tables",
+        ),
+        (
+            "compare a.csv a.csv --scene room.toml --gamma 2",
+            "are for pictures",
+        ),
+        (
+            "compare room.toml a.ppm",
+            "room.toml is none of the formats",
+        ),
+    ] {
+        let (code, message) = place.fail(arguments);
+        assert_eq!(code, 3, "{arguments}: {message}");
+        assert!(message.contains(expected), "{arguments}: {message}");
+        assert!(
+            message.starts_with("error: ") && message.lines().count() == 1,
+            "{message}"
+        );
+    }
+}
+
+/// Opening a pipe waits for a writer, and a device does not end.
+#[cfg(unix)]
+#[test]
+fn what_is_no_regular_file_is_refused() {
+    let place = Place::new();
+    place.write("b.csv", "");
+    let made = std::process::Command::new("mkfifo")
+        .args([place.path("pipe.csv"), place.path("pipe.png")])
+        .status();
+    assert!(made.unwrap().success());
+    for command in [
+        "compare pipe.png pipe.png",
+        "compare pipe.csv b.csv --scene room.toml",
+        "compare /dev/zero /dev/zero",
+        "inspect pipe.png",
+    ] {
+        let (code, message) = place.fail(command);
+        assert_eq!(code, 3);
+        assert!(message.contains("it is no regular file"), "{message}");
+    }
+}
+
+/// Three kilobytes asked for three gigabytes.
+#[cfg(target_os = "linux")]
+#[test]
+fn small_files_take_little_memory() {
+    let place = Place::new();
+    let mut png = Vec::new();
+    let mut encoder = png::Encoder::new(&mut png, 1920, 1080);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_compression(png::Compression::High);
+    let mut writer = encoder.write_header().unwrap();
+    writer
+        .write_image_data(&vec![127; 1920 * 1080 * 3])
+        .unwrap();
+    drop(writer);
+    fs::write(place.path("plain.png"), &png).unwrap();
+    assert_eq!(
+        limited(&place, 200_000, "compare plain.png plain.png"),
+        (0, String::new())
+    );
+}
+
+/// Runs with so much memory; exit code and standard error.
+#[cfg(unix)]
+fn limited(place: &Place, kilobytes: u32, arguments: &str) -> (i32, String) {
+    let limited = format!("ulimit -v {kilobytes}; exec \"$0\" {arguments}");
+    let program = env!("CARGO_BIN_EXE_radiosity");
+    let mut command = std::process::Command::new("sh");
+    let command = command.args(["-c", &limited, program]);
+    let output = command.current_dir(place.0.path()).output().unwrap();
+    let message = String::from_utf8(output.stderr).unwrap();
+    let code = output.status.code();
+    (
+        code.unwrap_or_else(|| panic!("{kilobytes} kB: {message}")),
+        message,
+    )
+}
+
+/// With any limit from some megabytes more than the program itself takes, a comparison is made or refused,
+/// and more memory is no worse.
+#[cfg(target_os = "linux")]
+#[test]
+fn pictures_that_do_not_fit_into_memory_are_refused() {
+    let place = Place::new();
+    let (width, height) = (800, 500);
+    let levels = vec![127; 3 * width * height];
+    let ppm = [format!("P6 {width} {height} 255\n").as_bytes(), &levels].concat();
+    fs::write(place.path("plain.ppm"), ppm).unwrap();
+    let mut map = Vec::new();
+    let mut encoder = png::Encoder::new(&mut map, width as u32, height as u32);
+    encoder.set_color(png::ColorType::Grayscale);
+    let mut writer = encoder.write_header().unwrap();
+    writer.write_image_data(&levels[..width * height]).unwrap();
+    drop(writer);
+    fs::write(place.path("map.png"), map).unwrap();
+    let plain = "compare plain.ppm plain.ppm";
+    for arguments in [
+        plain.to_owned(),
+        format!("{plain} --difference d.png"),
+        format!("{plain} --difference d.pfm"),
+        format!("{plain} --regions map.png"),
+    ] {
+        let limits = (32_000..=72_000).step_by(4_000);
+        let found = limits.map(|kilobytes| limited(&place, kilobytes, &arguments));
+        let found: Vec<(i32, String)> = found.collect();
+        let refused = found.iter().take_while(|(code, _)| *code == 4).count();
+        assert!(
+            refused > 0 && refused < found.len(),
+            "{arguments}: {found:?}"
+        );
+        for (_, message) in &found[..refused] {
+            assert!(message.starts_with("error: "), "{message}");
+            assert!(message.contains("of memory, but only"), "{message}");
+            assert_eq!(message.lines().count(), 2, "{message}");
+        }
+        let most = &found[refused - 1].1;
+        let expected = "error: comparing plain.ppm with 800 x 500 pixels needs ";
+        assert!(most.starts_with(expected), "{most}");
+        assert!(
+            found[refused..].iter().all(|(code, _)| *code == 0),
+            "{arguments}: {found:?}"
+        );
+    }
+}
+
+/// Nor is a name of other bytes a reason to fail.
+#[cfg(target_os = "linux")]
+#[test]
+fn paths_may_be_of_any_bytes() {
+    use std::os::unix::ffi::OsStrExt;
+    let place = Place::new();
+    let name = |end: &str| [b"p\xff", end.as_bytes()].concat();
+    let path = |end: &str| place.0.path().join(std::ffi::OsStr::from_bytes(&name(end)));
+    fs::write(path(".pfm"), b"PF\n1 1\n-1\n\0\0\0\x3f\0\0\0\x3f\0\0\0\x3f").unwrap();
+    let mut command = place.command("compare --json");
+    command.arg(path(".pfm")).arg(path(".pfm"));
+    command.arg("--difference").arg(path("d.png"));
+    let output = command.output().unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(json["found"].as_str().unwrap().contains("p\u{fffd}.pfm"));
+    assert!(path("d.png").is_file());
+}
