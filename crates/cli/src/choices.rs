@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 
-/// [`By`](crate::By) on the command line.
+/// [`By`](radiosity::By) on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum ByArg {
     /// Patches, in the order of the input
@@ -101,7 +101,7 @@ pub enum FormatArg {
     Exr,
 }
 
-/// [`Quantity`](crate::Quantity) on the command line, and how it is shown.
+/// [`Quantity`](radiosity::Quantity) on the command line, and how it is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum ShowArg {
     /// All light
