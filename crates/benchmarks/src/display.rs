@@ -2,13 +2,14 @@
 
 mod views;
 
+use crate::Error;
 use crate::figure::{Figure, Target, show};
 use crate::timing::best_seconds;
 use crate::{course, course_display, form_factors};
 use radiosity::image::{PictureFormat, ToneMap, Transfer, encode};
 use radiosity::renderer::Shading;
 use radiosity::scene::{Scene, load};
-use radiosity::{Error, Pipeline, Silent, Sources};
+use radiosity::{Pipeline, Silent, Sources};
 use std::path::Path;
 use views::{GOOD, Truth, beside_the_tracer, exact_view, gathered_view};
 
@@ -65,10 +66,7 @@ fn beside_the_course(scene: &Scene) -> Result<Vec<Figure>, Error> {
     });
     let course_factors = form_factors::baseline_seconds(mesh);
     let whole = course + course_factors + course::seconds(&made);
-    let folder = tempfile::tempdir().map_err(|error| Error::Output {
-        path: std::env::temp_dir(),
-        error,
-    })?;
+    let folder = tempfile::tempdir()?;
     let mut problem = None;
     let cold = best_seconds(RUNS, || problem = cold_run(scene, folder.path()).err());
     if let Some(problem) = problem {
@@ -130,7 +128,7 @@ fn cold_run(scene: &Scene, folder: &Path) -> Result<(), Error> {
         ] {
             let path = folder.join(format!("{name}.{ending}"));
             let written = std::fs::write(&path, encode(&shown, format, &[]));
-            written.map_err(|error| Error::Output { path, error })?;
+            written?;
         }
     }
     Ok(())

@@ -1,5 +1,6 @@
 //! How fast form factors are, and what the accurate ones cost, side by side with the course's.
 
+use crate::Error;
 use crate::baseline::Baseline;
 use crate::figure::{Figure, Target, show};
 use crate::machine;
@@ -7,7 +8,7 @@ use crate::timing::{best_seconds, median};
 use radiosity::form_factors::{Estimator, estimate};
 use radiosity::geometry::{Divisions, Mesh, subdivide};
 use radiosity::scene::{Mode, Scene, load};
-use radiosity::{Error, Pipeline, Silent, Sources, cells};
+use radiosity::{Pipeline, Silent, Sources, cells};
 use std::path::Path;
 use std::time::Instant;
 
@@ -66,8 +67,7 @@ pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
 }
 
 fn cut(scene: &Scene, divisions: u32) -> Result<Mesh, Error> {
-    subdivide(&scene.geometry, Divisions::uniform(divisions))
-        .map_err(|error| Error::Mesh(error.to_string()))
+    Ok(subdivide(&scene.geometry, Divisions::uniform(divisions))?)
 }
 
 /// Pairs of points per second, on one thread.

@@ -1,6 +1,6 @@
 //! Scenes that were generated, as they are after they are read.
 
-use radiosity::Error;
+use crate::Error;
 use radiosity::geometry::{Mesh, subdivide};
 use radiosity::scene::{Scene, parse};
 use std::path::Path;
@@ -9,5 +9,5 @@ use std::path::Path;
 pub(crate) fn generated(name: &str, text: &str) -> Result<(Scene, Mesh), Error> {
     let scene = parse(Path::new(name), text)?;
     let mesh = subdivide(&scene.geometry, scene.divisions);
-    Ok((scene, mesh.map_err(|error| Error::Mesh(error.to_string()))?))
+    Ok((scene, mesh?))
 }

@@ -1,8 +1,9 @@
 //! What the machine can do, and what other instruction sets of it do.
 
+use crate::Error;
 use radiosity::geometry::Divisions;
 use radiosity::scene::load;
-use radiosity::{Error, Pipeline, Silent, Sources};
+use radiosity::{Pipeline, Silent, Sources};
 use radiosity_simd::{Float, InstructionSet, Kernel, LANES, Simd, dispatch};
 use std::path::Path;
 use std::process::Command;

@@ -15,9 +15,11 @@ mod view_factors;
 mod visibility;
 
 use clap::{Parser, Subcommand};
-use radiosity::Error;
 use std::path::Path;
 use std::process::ExitCode;
+
+/// Whatever ends a bench before its figures.
+type Error = Box<dyn std::error::Error + Send + Sync>;
 
 /// Measure what is claimed
 #[derive(Debug, Parser)]
@@ -63,7 +65,7 @@ fn main() -> ExitCode {
     match run(what, &root, json) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("{error}");
+            eprintln!("error: {error}");
             ExitCode::FAILURE
         }
     }

@@ -3,6 +3,7 @@
 
 mod bandwidth;
 
+use crate::Error;
 use crate::course;
 use crate::figure::{Figure, Target, show};
 use crate::timing::best_seconds;
@@ -11,7 +12,7 @@ use radiosity::cache::Store;
 use radiosity::form_factors::FormFactors;
 use radiosity::scene::{Mode, Scene, load};
 use radiosity::solver::{Convergence, Method, relit};
-use radiosity::{Error, Pipeline, Silent, Sources};
+use radiosity::{Pipeline, Silent, Sources};
 use std::path::Path;
 
 /// Patches along each edge of the course's rectangles: 1,728, 6,912 and 27,648 patches.
@@ -28,10 +29,7 @@ const MOST_STEPS: f64 = 15.0;
 const COURSE: f64 = 60.0;
 
 pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
-    let folder = tempfile::tempdir().map_err(|error| Error::Output {
-        path: std::env::temp_dir(),
-        error,
-    })?;
+    let folder = tempfile::tempdir()?;
     let store = Store::new(folder.path());
     let mut figures = Vec::new();
     for divisions in SIZES {

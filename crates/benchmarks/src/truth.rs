@@ -4,9 +4,9 @@
 
 mod oracle;
 
+use crate::Error;
 use crate::figure::{Figure, Target};
 use oracle::{Accuracy, Oracle, tracer};
-use radiosity::Error;
 use radiosity::scene::{Mode, Scene, load};
 use std::path::Path;
 use std::time::Instant;

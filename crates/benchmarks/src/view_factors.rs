@@ -4,12 +4,13 @@
 //! README are made on, and had an rms error of 3.7e-6 at 313 rectangles. It is not run here: its
 //! figures are constants, and seconds on other machines compare to them only roughly.
 
+use crate::Error;
 use crate::figure::{Figure, Target, show};
 use crate::generated::generated;
 use radiosity::form_factors::{Estimator, FormFactors, estimate};
 use radiosity::geometry::Mesh;
 use radiosity::scene::Scene;
-use radiosity::{By, Error, FactorTable};
+use radiosity::{By, FactorTable};
 use radiosity_generate::nested_box;
 use std::path::Path;
 use std::time::Instant;
@@ -59,7 +60,7 @@ const OBSTACLES: u32 = 200;
 pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
     let exact = exact(root)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-    let pool = pool.map_err(|error| Error::Input(format!("cannot start a thread: {error}")))?;
+    let pool = pool.map_err(|error| format!("cannot start a thread: {error}"))?;
     for size in &SIZES {
         let mut figures = pool.install(|| measure(root, size, &exact))?;
         figures.extend(pool.install(|| among_plates(root, size))?);
@@ -141,7 +142,7 @@ fn best(mesh: &Mesh, size: &Size) -> (f64, FormFactors) {
 }
 
 fn boxed(root: &Path, elements: u32, obstacles: u32) -> Result<(Scene, Mesh), Error> {
-    let text = nested_box::vs3(root, elements, obstacles).map_err(Error::Input)?;
+    let text = nested_box::vs3(root, elements, obstacles)?;
     generated("box.vs3", &text)
 }
 
@@ -149,7 +150,7 @@ fn boxed(root: &Path, elements: u32, obstacles: u32) -> Result<(Scene, Mesh), Er
 fn exact(root: &Path) -> Result<Vec<f32>, Error> {
     let path = root.join("tests/data/box313/form-factors.npy");
     let bytes = std::fs::read(&path);
-    let bytes = bytes.map_err(|e| Error::Input(format!("cannot read {}: {e}", path.display())))?;
+    let bytes = bytes.map_err(|e| format!("cannot read {}: {e}", path.display()))?;
     let count = nested_box::PARENTS.pow(2) as usize;
     let values = bytes[bytes.len().saturating_sub(4 * count)..]
         .as_chunks::<4>()

@@ -3,9 +3,9 @@
 //! Embree (Debian's `libembree-dev`) is no dependency: `embree.c` is compiled by the system's C compiler
 //! when the bench runs, and left out with a message where that fails.
 
+use crate::Error;
 use crate::figure::{Figure, Target, show};
 use crate::generated::generated;
-use radiosity::Error;
 use radiosity::form_factors::{Estimator, estimate};
 use radiosity::geometry::{Bundle, DVec3, Mesh, Occluders, Patch, Walls};
 use radiosity_generate::blob;
@@ -25,7 +25,7 @@ const PROMISE: f64 = 1.5;
 const TOLERANCE: f64 = 0.01;
 
 pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
-    let text = blob::vs3(TRIANGLES).map_err(Error::Input)?;
+    let text = blob::vs3(TRIANGLES)?;
     let (_, mesh) = generated("blob.vs3", &text)?;
     let walls = Walls::new(&mesh);
     let occluders = Occluders::of_walls(&walls);

@@ -3,7 +3,7 @@
 use super::args::{CacheAction, CacheCommand};
 use super::site::Site;
 use super::terminal::say;
-use radiosity::Error;
+use crate::error::Error;
 use radiosity::cache::{Entry, Miss, Store};
 use radiosity::words::bytes;
 

@@ -3,8 +3,8 @@
 use super::args::CheckArgs;
 use super::site::Site;
 use super::terminal::say;
+use crate::error::Error;
 use crate::lines::{indented, labelled, scene_line};
-use radiosity::Error;
 use radiosity::covers;
 use radiosity::geometry::{Divisions, Mesh, count_patches, subdivide};
 use radiosity::resources::Needs;
@@ -32,7 +32,7 @@ pub(super) fn run(args: &CheckArgs, site: &Site) -> Result<(), Error> {
     for line in check_lines(&scene, &needs, faces.as_ref()) {
         say(&line)?;
     }
-    fits.and(needs.check_memory())
+    Ok(fits.and(needs.check_memory())?)
 }
 
 /// What `check` says; of the faces of a scene that fits into memory.
@@ -93,7 +93,7 @@ fn lights_line(scene: &Scene) -> Option<String> {
 /// What computing the scene would take, by its numbers of patches: without faces that only stand in the way,
 /// but nothing is made for it.
 fn counted_needs(scene: &Scene) -> Result<Needs, Error> {
-    let of_mesh = |error| Error::of_mesh(scene, &error);
+    let of_mesh = |error| radiosity::Error::of_mesh(scene, &error);
     let patches = count_patches(&scene.geometry, scene.divisions).map_err(of_mesh)?;
     let faces = count_patches(&scene.undivided(), UNDIVIDED).map_err(of_mesh)?;
     Ok(needs_of(scene, patches, faces))
@@ -105,8 +105,8 @@ fn needs_of(scene: &Scene, patches: usize, faces: usize) -> Needs {
 
 /// The faces of a scene, uncut.
 fn faces_of(scene: &Scene) -> Result<Mesh, Error> {
-    let of_mesh = |error| Error::of_mesh(scene, &error);
-    subdivide(&scene.undivided(), UNDIVIDED).map_err(of_mesh)
+    let of_mesh = |error| radiosity::Error::of_mesh(scene, &error);
+    Ok(subdivide(&scene.undivided(), UNDIVIDED).map_err(of_mesh)?)
 }
 
 #[cfg(test)]

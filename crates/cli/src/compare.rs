@@ -8,8 +8,8 @@ use super::printable;
 use super::run::check_folder_of;
 use super::site::Site;
 use super::terminal::{say, say_json};
+use crate::error::Error;
 use pictures::pictures;
-use radiosity::Error;
 use radiosity::compare::{Cell, Errors, compare_tables, parse_table};
 use radiosity::scene::Scene;
 use radiosity::{cells, table_mesh};
@@ -56,7 +56,7 @@ pub(crate) fn run(args: &CompareCommand, site: &Site) -> Result<(), Error> {
         [true, true] => tables(args, scene.as_ref())?,
         _ => {
             let problem = "a picture cannot be compared with a table (.csv)";
-            return Err(Error::Input(problem.to_owned()));
+            return Err(Error::input(problem));
         }
     };
     if args.json {
@@ -78,7 +78,7 @@ pub(crate) fn run(args: &CompareCommand, site: &Site) -> Result<(), Error> {
 
 fn tables(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Error> {
     let needs_scene =
-        || Error::Input("tables do not tell the areas of patches: name their --scene".to_owned());
+        || Error::input("tables do not tell the areas of patches: name their --scene");
     let only_pictures = [
         args.regions.is_some(),
         args.difference.is_some(),
@@ -88,7 +88,7 @@ fn tables(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Erro
     if only_pictures.contains(&true) {
         let problem =
             "--regions, --difference, --exposure and --gamma are for pictures, not for tables";
-        return Err(Error::Input(problem.to_owned()));
+        return Err(Error::input(problem));
     }
     let scene = scene.ok_or_else(needs_scene)?;
     let cells = cells(scene, &table_mesh(scene, args.patches)?);
@@ -99,7 +99,7 @@ fn tables(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Erro
         None => found,
     };
     let named = compare_tables(&cells, &found, &reference);
-    let named = named.map_err(|error| Error::Input(error.to_string()))?;
+    let named = named.map_err(|error| Error::input(error.to_string()))?;
     let left_out = surfaces_left_out(&cells, &named);
     Ok(Compared { named, left_out })
 }
@@ -118,7 +118,7 @@ fn surfaces_left_out(cells: &[Cell], named: &[(String, Errors)]) -> String {
 
 /// Says which file an error is about.
 fn at<E: std::fmt::Display>(path: &Path) -> impl Fn(E) -> Error {
-    move |error| Error::Input(format!("{} {error}", path.display()))
+    move |error| Error::input(format!("{} {error}", path.display()))
 }
 
 fn print(Compared { named, left_out }: &Compared) -> Result<(), Error> {

@@ -5,8 +5,8 @@ use super::choices::ByArg;
 use super::run::{check_folder_of, store, with_threads, write_by};
 use super::site::Site;
 use super::terminal::Terminal;
+use crate::error::Error;
 use crate::report::Report;
-use radiosity::Error;
 use radiosity::Pipeline;
 use radiosity::Sources;
 use radiosity::cache::Store;
@@ -51,9 +51,9 @@ pub(super) fn run(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
 /// Refuses what cannot be written, before anything is computed for it.
 fn check_export(path: &Path, args: &FormFactorsCommand) -> Result<(), Error> {
     if args.sparse.is_some() && is_npy(path) {
-        return Err(Error::Input(
-            "--sparse is for .csv alone\n   = help: leave it out, or export to a path that ends in .csv"
-                .to_owned(),
+        return Err(Error::with_help(
+            "--sparse is for .csv alone",
+            "leave it out, or export to a path that ends in .csv",
         ));
     }
     check_folder_of(path)

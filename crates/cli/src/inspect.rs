@@ -4,10 +4,10 @@ use super::args::InspectCommand;
 use super::input::check_regular;
 use super::site::Site;
 use super::terminal::{say, say_json};
+use crate::error::Error;
 use crate::lines::{
     class_line, closure_line, error_line, indented, labelled, missed_line, row_line,
 };
-use radiosity::Error;
 use radiosity::cache::{Miss, open};
 use radiosity::inspect::{
     CLOSURE_BOUNDS, FactorInspection, Inspection, SolutionInspection, WorstRow,
@@ -20,7 +20,7 @@ const LONGEST_BAR: f64 = 40.0;
 
 pub(super) fn run(args: &InspectCommand, site: &Site) -> Result<(), Error> {
     let path = &args.file;
-    let unusable = |miss: Miss| Error::Input(explanation(path, &miss));
+    let unusable = |miss: Miss| unusable(path, &miss);
     check_regular(path)?;
     let opened = open(path).map_err(unusable)?;
     let names = surface_names(args, site, &opened.stage)?;
@@ -48,8 +48,7 @@ fn lines(inspection: &Inspection) -> Vec<String> {
     lines
 }
 
-fn explanation(path: &Path, miss: &Miss) -> String {
-    let path = path.display();
+fn unusable(path: &Path, miss: &Miss) -> Error {
     let help = match miss {
         Miss::Io(_) => "give the path of a file in the cache; `cache list` names them",
         Miss::NotACacheFile => {
@@ -58,7 +57,7 @@ fn explanation(path: &Path, miss: &Miss) -> String {
         }
         _ => "the command that needs it makes it anew",
     };
-    format!("{path}: {miss}\n   = help: {help}")
+    Error::with_help(format!("{}: {miss}", path.display()), help)
 }
 
 /// The names of the scene's surfaces, if it is there and can be read: the one that was named, or

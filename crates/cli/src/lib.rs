@@ -8,6 +8,7 @@ mod check;
 mod choices;
 mod compare;
 mod display;
+mod error;
 mod form_factors;
 mod image_args;
 mod input;

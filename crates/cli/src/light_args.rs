@@ -1,8 +1,8 @@
 //! How bright lights are, on the command line.
 
 use super::parse::{parse_dim, parse_tint};
+use crate::error::Error;
 use clap::Args;
-use radiosity::Error;
 use radiosity::scene::{Light, Scene, suggestion};
 use std::collections::BTreeSet;
 
@@ -48,9 +48,10 @@ impl LightArgs {
 fn once<T>(of_lights: &[(String, T)], flag: &str) -> Result<(), Error> {
     let mut names = BTreeSet::new();
     match of_lights.iter().find(|(name, _)| !names.insert(name)) {
-        Some((name, _)) => Err(Error::Input(format!(
-            "{flag} is given twice for the light `{name}`\n   = help: give it once for each light"
-        ))),
+        Some((name, _)) => Err(Error::with_help(
+            format!("{flag} is given twice for the light `{name}`"),
+            "give it once for each light",
+        )),
         None => Ok(()),
     }
 }
@@ -64,9 +65,10 @@ fn light<'a>(scene: &'a mut Scene, name: &str) -> Result<&'a mut Light, Error> {
     let Some(index) = names.iter().position(|known| *known == name) else {
         let help = suggestion(name, names.iter().copied());
         let help = help.unwrap_or_else(|| "nothing in this scene emits".to_owned());
-        return Err(Error::Input(format!(
-            "there is no light `{name}`\n   = help: {help}"
-        )));
+        return Err(Error::with_help(
+            format!("there is no light `{name}`"),
+            help,
+        ));
     };
     Ok(&mut scene.lights[index])
 }

@@ -4,7 +4,7 @@ use super::choices::ShowArg;
 use super::parse::PatchName;
 use super::print::Palette;
 use super::show_args::ShowArgs;
-use radiosity::Error;
+use crate::error::Error;
 use radiosity::Quantity;
 use radiosity::geometry::Mesh;
 use radiosity::image::{ColorScale, Image, LUMINANCE, Values};
@@ -43,10 +43,9 @@ impl ShowArgs {
             shows.push(ShowArg::Light);
         }
         if shows.contains(&ShowArg::Error) && scene.form_factors.mode != Mode::Accurate {
-            return Err(Error::Input(
-                "this scene's estimator does not know the errors of form factors\n   \
-                 = help: use --mode accurate"
-                    .to_owned(),
+            return Err(Error::with_help(
+                "this scene's estimator does not know the errors of form factors",
+                "use --mode accurate",
             ));
         }
         let is_new = |k: &usize| !shows[..*k].contains(&shows[*k]);
@@ -93,10 +92,10 @@ impl Look {
         let PatchName { surface, cell } = name;
         let [a, b] = cell;
         let patch = patch_at(scene, mesh, surface, *cell).ok_or_else(|| {
-            Error::Input(format!(
-                "there is no patch {a},{b} on a surface `{surface}`\n   \
-                 = help: `solve --export FILE.csv` lists all patches as surface,ia,ib"
-            ))
+            Error::with_help(
+                format!("there is no patch {a},{b} on a surface `{surface}`"),
+                "`solve --export FILE.csv` lists all patches as surface,ia,ib",
+            )
         })?;
         let unit = (format!("of {surface} {a},{b}"), GREY, false);
         let quantity = Quantity::FactorsFrom(patch);

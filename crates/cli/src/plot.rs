@@ -1,7 +1,7 @@
 //! How the residual falls with each pass, as a picture.
 
+use crate::error::Error;
 use plotters::prelude::*;
-use radiosity::Error;
 use radiosity::Pipeline;
 use radiosity::form_factors::FormFactors;
 use radiosity::solver::Method;

@@ -4,8 +4,8 @@ use super::args::ReferenceCommand;
 use super::run::{make_folder, with_threads, write};
 use super::site::Site;
 use super::terminal::{Terminal, say_json};
+use crate::error::Error;
 use crate::lines::indented;
-use radiosity::Error;
 use radiosity::image::{Image, PictureFormat, encode, encode_pfm};
 use radiosity::reference::{Tracer, cell_means};
 use radiosity::resources::check_image;
@@ -120,10 +120,10 @@ fn picture(
 ) -> Result<Json, Error> {
     let camera = scene
         .first_camera()
-        .ok_or_else(|| Error::no_camera(scene))?;
+        .ok_or_else(|| radiosity::Error::no_camera(scene))?;
     let (width, height) = (scene.image.width, scene.image.height);
     check_image(width, height)?;
-    let of_mesh = |error| Error::of_mesh(scene, &error);
+    let of_mesh = |error| radiosity::Error::of_mesh(scene, &error);
     let mut tracer = Tracer::new(scene, &camera, args.seed).map_err(of_mesh)?;
     let start = Instant::now();
     let percent = trace(args, scene, &mut tracer, folder, terminal)?;

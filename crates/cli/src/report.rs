@@ -1,12 +1,12 @@
 //! What a run has to say, as lines for people and as JSON for scripts.
 
+use crate::error::Error;
 use crate::lines::{
     class_line, closed_line, closure_line, error_line, indented, missed_line, row_line, scene_line,
     unbalanced_lines,
 };
 use crate::solve_report::{SolveReport, solution_lines};
 use crate::terminal::{Terminal, say_json};
-use radiosity::Error;
 use radiosity::darkness;
 use radiosity::geometry::Mesh;
 use radiosity::openings;

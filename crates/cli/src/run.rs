@@ -11,9 +11,9 @@ use super::reference;
 use super::signals::remove_unfinished_on_signals;
 use super::site::Site;
 use super::terminal::{Terminal, tell};
+use crate::error::Error;
 use crate::plot::convergence_plot;
 use crate::report::Report;
-use radiosity::Error;
 use radiosity::cache::{Changed, Store, replace_file_by};
 use radiosity::radiosity_table;
 use radiosity::{How, Sources};
@@ -49,7 +49,7 @@ pub fn run(command: &Command, site: &Site) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            tell(&error.to_string());
+            tell(&error.report());
             ExitCode::from(error.exit_code())
         }
     }
@@ -116,11 +116,7 @@ pub(super) fn with_threads(
 ) -> Result<(), Error> {
     let count = threads.map_or(0, |count| count as usize);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
-    let pool = pool.map_err(|error| Error::Resources {
-        problem: format!("cannot start threads: {error}"),
-        remedy: "use fewer (--threads)".to_owned(),
-    })?;
-    pool.install(run)
+    pool?.install(run)
 }
 
 /// Refuses a result in a folder that does not exist, before anything is computed for it.
@@ -165,7 +161,7 @@ pub(super) fn write_by(
         cache.map_or(Ok(()), Store::check).map_err(io::Error::other)
     });
     written.map_err(|error| match error.downcast::<Changed>() {
-        Ok(changed) => Error::Changed(changed),
+        Ok(changed) => changed.into(),
         Err(error) => Error::Output {
             path: path.to_owned(),
             error,

@@ -3,7 +3,7 @@
 use super::choices::FormatArg;
 use super::print::Print;
 use super::run::write;
-use radiosity::Error;
+use crate::error::Error;
 use radiosity::Pipeline;
 use radiosity::cache::Store;
 #[cfg(feature = "openexr")]

@@ -6,7 +6,7 @@ use super::look::Look;
 use super::print::{Palette, Print};
 use super::save::Folder;
 use super::view_args::Shot;
-use radiosity::Error;
+use crate::error::Error;
 use radiosity::darkness;
 use radiosity::image::{Image, Rgb8Image, Transfer, contact_sheet, thumbnail_width};
 use radiosity::renderer::{Outlines, Renderer, Shading};
@@ -148,10 +148,10 @@ pub(super) fn check_names(args: &DisplayArgs, looks: &[Look], shots: &[Shot]) ->
             for shot in shots {
                 let name = name_of(look, shot, shading);
                 if !names.insert(name.clone()) {
-                    return Err(Error::Input(format!(
-                        "two pictures would be called `{name}`\n   \
-                         = help: rename the view that is called as something that is shown"
-                    )));
+                    return Err(Error::with_help(
+                        format!("two pictures would be called `{name}`"),
+                        "rename the view that is called as something that is shown",
+                    ));
                 }
             }
         }

@@ -2,8 +2,8 @@
 
 use super::args::OutsideArgs;
 use super::terminal::tell;
+use crate::error::Error;
 use etcetera::{BaseStrategy, choose_base_strategy};
-use radiosity::Error;
 use radiosity::scene::{Scene, load_with};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -75,10 +75,10 @@ impl Site {
         if let Some(named) = named.find(|path| path.is_file()) {
             return Ok(named);
         }
-        Err(Error::NoSuchScene {
-            wanted: wanted.display().to_string(),
-            help: self.what_there_is(),
-        })
+        Err(Error::with_help(
+            format!("there is no scene `{}`", wanted.display()),
+            self.what_there_is(),
+        ))
     }
 
     fn what_there_is(&self) -> String {

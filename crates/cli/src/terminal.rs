@@ -2,9 +2,9 @@
 //! what is not safe to print shown as codes; only [`live`](super::live) draws by itself.
 
 use super::printable;
+use crate::error::Error;
 use crate::lines::indented;
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
-use radiosity::Error;
 use radiosity::{Observer, Stage};
 use serde::Serialize;
 use std::io::{self, ErrorKind, Write};

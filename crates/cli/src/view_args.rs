@@ -2,8 +2,8 @@
 
 use super::apply::set;
 use super::choices::BacksArg;
+use crate::error::Error;
 use clap::Args;
-use radiosity::Error;
 use radiosity::geometry::{Backs, Camera, Mesh};
 use radiosity::scene::{ALL_VIEWS, FIRST_VIEW, Scene, suggestion};
 
@@ -66,15 +66,16 @@ impl ViewArgs {
         if let Some(count) = self.path {
             let stations: Vec<Camera> = wanted.iter().map(|shot| shot.camera).collect();
             if stations.len() < 2 {
-                return Err(Error::Input(
-                    "a path goes through two views at least\n   = help: add [[views]] to the scene, each with a `name` and a `camera`"
-                        .to_owned(),
+                return Err(Error::with_help(
+                    "a path goes through two views at least",
+                    "add [[views]] to the scene, each with a `name` and a `camera`",
                 ));
             }
             let path = Camera::path(&stations, count).map_err(|error| {
-                Error::Input(format!(
-                    "the camera cannot look on its way from view to view: {error}\n   = help: add a view where it turns"
-                ))
+                Error::with_help(
+                    format!("the camera cannot look on its way from view to view: {error}"),
+                    "add a view where it turns",
+                )
             })?;
             return Ok(frames("path".to_owned(), path).collect());
         }
@@ -93,7 +94,7 @@ impl ViewArgs {
         });
         let mut all: Vec<Shot> = first.chain(others).collect();
         if all.is_empty() {
-            return Err(Error::no_camera(scene));
+            return Err(radiosity::Error::no_camera(scene).into());
         }
         if self.views.is_empty() {
             if self.path.is_none() {
@@ -107,10 +108,10 @@ impl ViewArgs {
         for name in self.views.iter().filter(|name| *name != ALL_VIEWS) {
             let Some(index) = known.iter().position(|known| known == name) else {
                 let help = suggestion(name, known.iter().map(String::as_str));
-                return Err(Error::Input(format!(
-                    "there is no view `{name}`\n   = help: {}",
-                    help.unwrap_or_default()
-                )));
+                return Err(Error::with_help(
+                    format!("there is no view `{name}`"),
+                    help.unwrap_or_default(),
+                ));
             };
             if !wanted.contains(&index) {
                 wanted.push(index);

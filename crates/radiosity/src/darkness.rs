@@ -142,7 +142,7 @@ pub fn of_picture(pipeline: &Pipeline<'_>, camera: &Camera, size: (u32, u32)) ->
     } else {
         format!(
             "the camera sees nothing but backs, of {}: move it to their other side, reverse the order of \
-             their corners, or look through them with --backs transparent",
+             their corners, or let backs be transparent",
             named(backs)
         )
     }

@@ -5,6 +5,7 @@
 
 use crate::error::Error;
 use crate::export::{faces_in_input_order, input_order};
+use crate::remedy::Remedy;
 use crate::resources::check_parts;
 use crate::row_columns;
 use radiosity_compare::table_name;
@@ -70,11 +71,11 @@ impl<'a> FactorTable<'a> {
             By::Patch => return Ok(FactorTable::of_patches(scene, mesh, form_factors)),
             By::Surface => (
                 |scene, face| &scene.surfaces[face.surface.index()].name,
-                "export them --by patch, or put surfaces into groups and export --by group",
+                "export them by patch, or put surfaces into groups and export by group",
             ),
             By::Group => (
                 |scene, face| scene.group(face.surface, face.input_index),
-                "export them --by patch, or put surfaces into fewer groups",
+                "export them by patch, or put surfaces into fewer groups",
             ),
         };
         let mut names: Vec<&str> = Vec::new();
@@ -90,7 +91,7 @@ impl<'a> FactorTable<'a> {
             });
             part_of[face.patches()].fill(part);
         }
-        check_parts(names.len(), remedy)?;
+        check_parts(names.len(), Remedy::words(remedy))?;
         let lumped = form_factors.lumped(&part_of, names.len());
         let row = |(part, name)| TableRow {
             name: table_name(name),

@@ -41,6 +41,7 @@ mod observer;
 pub mod openings;
 mod pipeline;
 mod prediction;
+mod remedy;
 pub mod resources;
 mod row_columns;
 mod row_report;
@@ -54,6 +55,7 @@ pub use export::{cells, patch_at, radiosity_table, reference_table, table_mesh};
 pub use factor_export::{By, FactorTable};
 pub use observer::{Observer, Silent, Stage};
 pub use pipeline::{FormFactorsMade, PatchLight, Pipeline, Quantity, Shown, Solved, covers};
+pub use remedy::Remedy;
 pub use row_report::RowReport;
 pub use rows::{RowSummary, Unbalanced};
 

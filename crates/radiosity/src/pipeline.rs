@@ -4,6 +4,7 @@ use crate::artifact::Origin;
 use crate::error::Error;
 use crate::facts::{self, CLOSURE, FORM_FACTORS};
 use crate::observer::Observer;
+use crate::remedy::Remedy;
 use crate::row_columns::is_finite;
 use crate::rows::RowSummary;
 use crate::settings;
@@ -146,7 +147,7 @@ impl<'a> Pipeline<'a> {
         match self.scene.form_factors.mode {
             Mode::Regular => Some("the regular rule overestimates patches that touch"),
             Mode::MonteCarlo => {
-                Some("the variance is unbounded where patches touch; more --pairs help")
+                Some("the variance is unbounded where patches touch; more pairs of points help")
             }
             Mode::Accurate => None,
         }
@@ -169,7 +170,7 @@ impl<'a> Pipeline<'a> {
                     "the form factors of `{}` are no numbers",
                     self.surface_name(patch)
                 ),
-                remedy: "use numbers of ordinary size in the scene".to_owned(),
+                remedy: Remedy::words("use numbers of ordinary size in the scene"),
             })
         })
     }
@@ -209,10 +210,9 @@ fn check_lights(scene: &Scene) -> Result<(), Error> {
     let on_surfaces = scene.surfaces.iter().flat_map(|surface| &surface.materials);
     let mut materials = on_surfaces.map(|&material| &scene.materials[material]);
     match materials.find(is_lost) {
-        Some(lost) => Err(Error::Input(format!(
-            "material `{}` emits but belongs to no light of the scene",
-            lost.name
-        ))),
+        Some(lost) => Err(Error::NoLight {
+            material: lost.name.clone(),
+        }),
         None => Ok(()),
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::machine::{free_disk, usable_memory};
+use crate::remedy::Remedy;
 use crate::words::{bytes, grouped};
 use radiosity_cache::Store;
 use radiosity_form_factors::Estimator;
@@ -83,7 +84,7 @@ impl Needs {
                     bytes(missing),
                     bytes(free)
                 ),
-                remedy: "use --no-cache, or a folder on another disk with --cache".to_owned(),
+                remedy: Remedy::CacheDisk,
             }),
             _ => Ok(()),
         }
@@ -106,23 +107,23 @@ impl Needs {
     }
 
     /// What makes it fit into so much memory.
-    fn remedy(&self, usable: u64) -> String {
+    fn remedy(&self, usable: u64) -> Remedy {
         // Of n patches, 4 bytes for each of n (n - 1) / 2 pairs, and as many a patch as here.
         let of_square = (2 * self.matrices) as f64;
         let of_patches = self.memory - BYTES_OF_PROGRAM - 4 * self.matrices * self.pairs;
         let half = of_patches as f64 / self.patches as f64 / of_square / 2.0 - 0.5;
         let free = usable.saturating_sub(BYTES_OF_PROGRAM) as f64;
         let fit = ((half * half + free / of_square).sqrt() - half) as u64;
-        let about = format!("about {} fit", grouped(two_digits(fit)));
+        let about = two_digits(fit);
         if self.faces as u64 > fit {
-            format!(
-                "use coarser meshes, or split the scene: each of its {} faces is a patch at least, and {about}",
-                grouped(self.faces as u64)
-            )
+            Remedy::Words(format!(
+                "use coarser meshes, or split the scene: each of its {} faces is a patch at least, and about \
+                 {} fit",
+                grouped(self.faces as u64),
+                grouped(about)
+            ))
         } else {
-            format!(
-                "use fewer patches (--patches, or a larger --max-patch-edge or `divisions` of surfaces): {about}"
-            )
+            Remedy::FewerPatches { fit: Some(about) }
         }
     }
 }
@@ -131,7 +132,7 @@ impl Needs {
 pub fn check_image(width: u32, height: u32) -> Result<(), Error> {
     let needed = u64::from(width) * u64::from(height) * BYTES_PER_PIXEL;
     let what = format!("pictures of {width} x {height} pixels need");
-    check_needed(&what, needed, "make them smaller (--size)")
+    check_needed(&what, needed, Remedy::SmallerPictures)
 }
 
 /// Refuses a picture whose comparison does not fit into memory.
@@ -148,24 +149,24 @@ pub fn check_comparison(
     check_needed(
         &what,
         needed,
-        "compare smaller pictures, or the same part of both",
+        Remedy::words("compare smaller pictures, or the same part of both"),
     )
 }
 
 /// Refuses files that do not fit into memory.
 pub fn check_file(path: &Path, size: u64) -> Result<(), Error> {
     let what = format!("reading {} needs", path.display());
-    check_needed(&what, size, "give a smaller file")
+    check_needed(&what, size, Remedy::words("give a smaller file"))
 }
 
 /// Refuses a matrix between so many parts that does not fit into memory.
-pub(crate) fn check_parts(parts: usize, remedy: &str) -> Result<(), Error> {
+pub(crate) fn check_parts(parts: usize, remedy: Remedy) -> Result<(), Error> {
     let what = format!("the factors between {} parts need", grouped(parts as u64));
     check_needed(&what, 8 * (parts as u64).pow(2), remedy)
 }
 
 /// Refuses what needs more memory than there is: a remedy is told.
-fn check_needed(what: &str, needed: u64, remedy: &str) -> Result<(), Error> {
+fn check_needed(what: &str, needed: u64, remedy: Remedy) -> Result<(), Error> {
     match usable_memory() {
         Some(usable) if needed > usable => Err(Error::Resources {
             problem: format!(
@@ -173,7 +174,7 @@ fn check_needed(what: &str, needed: u64, remedy: &str) -> Result<(), Error> {
                 bytes(needed),
                 bytes(usable),
             ),
-            remedy: remedy.to_owned(),
+            remedy,
         }),
         _ => Ok(()),
     }

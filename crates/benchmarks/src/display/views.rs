@@ -1,6 +1,7 @@
 //! Pictures with exact direct light and gathered ones, beside the truth and a path tracer.
 
 use super::{RUNS, figure};
+use crate::Error;
 use crate::figure::{Figure, Target};
 use crate::timing::best_seconds;
 use radiosity::compare::compare_pictures;
@@ -9,7 +10,7 @@ use radiosity::image::{DecodeParams, Decoded, Image, Regions, decode_picture, de
 use radiosity::reference::Tracer;
 use radiosity::renderer::Shading;
 use radiosity::scene::{Mode, Scene};
-use radiosity::{Error, Pipeline, Silent, Sources};
+use radiosity::{Pipeline, Silent, Sources};
 use std::path::Path;
 use std::time::Instant;
 
@@ -29,10 +30,6 @@ const TIMES_THE_TRACER: f64 = 50.0;
 /// Million vertices of paths per second and thread.
 const TRACER_RATE: f64 = 5.0;
 
-fn unreadable(error: impl std::fmt::Display) -> Error {
-    Error::Input(error.to_string())
-}
-
 /// The path-traced picture, and its regions.
 pub(super) struct Truth {
     picture: Decoded,
@@ -43,15 +40,14 @@ impl Truth {
     pub(super) fn read(root: &Path) -> Result<Truth, Error> {
         let read = |name: &str| {
             let path = root.join("tests/data").join(name);
-            std::fs::read(&path)
-                .map_err(|error| Error::Input(format!("{}: {error}", path.display())))
+            std::fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))
         };
         let params = DecodeParams::default();
         let picture = decode_picture(&read("cornell-radiance-box.exr")?, &params);
         let regions = decode_regions(&read("cornell-regions.png")?);
         Ok(Truth {
-            picture: picture.map_err(unreadable)?,
-            regions: regions.map_err(unreadable)?,
+            picture: picture?,
+            regions: regions?,
         })
     }
 
@@ -59,7 +55,7 @@ impl Truth {
     fn error(&self, found: &Image, scene: &Scene) -> Result<f64, Error> {
         let exposure = scene.image.exposure.factor().unwrap_or(0.0);
         let errors = compare_pictures(found, &self.picture, Some(&self.regions), exposure);
-        let errors = errors.map_err(unreadable)?;
+        let errors = errors?;
         let away = errors.iter().find(|(name, _)| name == "0-2");
         Ok(away.expect("the map has these regions").1.rmse_percent)
     }
@@ -159,9 +155,10 @@ pub(super) fn beside_the_tracer(
 ) -> Result<Vec<Figure>, Error> {
     let mut scene = scene.clone();
     scene.image.filter = PixelFilter::Box;
-    let camera = scene.camera.ok_or_else(|| Error::no_camera(&scene))?;
-    let mut tracer =
-        Tracer::new(&scene, &camera, 1).map_err(|error| Error::Mesh(error.to_string()))?;
+    let camera = scene
+        .camera
+        .ok_or_else(|| radiosity::Error::no_camera(&scene))?;
+    let mut tracer = Tracer::new(&scene, &camera, 1)?;
     let start = Instant::now();
     (0..PASSES).for_each(|_| tracer.pass(&|_| ()));
     let seconds = start.elapsed().as_secs_f64();

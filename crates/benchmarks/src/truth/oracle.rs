@@ -1,5 +1,6 @@
 //! What the modes are judged by: long random walks and path-traced pictures.
 
+use crate::Error;
 use crate::figure::Figure;
 use radiosity::compare::{Errors, Table, compare_pictures, compare_tables};
 use radiosity::geometry::Mesh;
@@ -7,7 +8,7 @@ use radiosity::image::{Decoded, Image};
 use radiosity::reference::{Tracer, cell_means};
 use radiosity::renderer::Shading;
 use radiosity::scene::Scene;
-use radiosity::{Error, Pipeline, Silent, Sources, cells, radiosity_table, reference_table};
+use radiosity::{Pipeline, Silent, Sources, cells, radiosity_table, reference_table};
 
 /// Random walks of the oracle, shared by all patches.
 const WALKS: usize = 40_000_000;
@@ -68,7 +69,7 @@ impl Oracle {
     pub(super) fn judge(&self, scene: &Scene) -> Result<Option<Accuracy>, Error> {
         let pipeline = Pipeline::new(scene, None, &Silent)?;
         let solved = match pipeline.solution(Sources::Cached) {
-            Err(Error::Unsolvable { .. }) => return Ok(None),
+            Err(radiosity::Error::Unsolvable { .. }) => return Ok(None),
             solved => solved?,
         };
         let found = radiosity_table(
@@ -100,7 +101,7 @@ fn table_errors(
         cells.iter_mut().for_each(|cell| cell.emits = false);
     }
     let errors = compare_tables(&cells, found, reference);
-    let errors = errors.map_err(|error| Error::Input(error.to_string()))?;
+    let errors = errors?;
     Ok(errors[errors.len() - 1].1)
 }
 
@@ -120,8 +121,8 @@ pub(super) fn tracer(scene: &Scene, seed: u64) -> Result<Tracer<'_>, Error> {
     let camera = scene
         .camera
         .as_ref()
-        .ok_or_else(|| Error::no_camera(scene))?;
-    Tracer::new(scene, camera, seed).map_err(|error| Error::Mesh(error.to_string()))
+        .ok_or_else(|| radiosity::Error::no_camera(scene))?;
+    Ok(Tracer::new(scene, camera, seed)?)
 }
 
 fn decoded(image: Image) -> Decoded {
@@ -139,6 +140,6 @@ fn picture_rmse(found: &Image, reference: &Decoded, scene: &Scene) -> Result<f64
         None,
         scene.image.exposure.factor().unwrap_or(0.0),
     );
-    let errors = errors.map_err(|error| Error::Input(error.to_string()))?;
+    let errors = errors?;
     Ok(errors[errors.len() - 1].1.rmse_percent)
 }

@@ -2,11 +2,11 @@
 
 use super::{Compared, at};
 use crate::args::CompareCommand;
+use crate::error::Error;
 use crate::input::read;
 use crate::run::write;
 use crate::signals::remove_unfinished_on_signals;
 use crate::terminal::tell;
-use radiosity::Error;
 use radiosity::compare::{compare_pictures, difference_picture};
 use radiosity::image::{
     DecodeParams, Decoded, Image, PictureFormat, Transfer, decode_picture, decode_regions, encode,
@@ -33,7 +33,7 @@ const BYTES_OF_REGIONS: u64 = 1 + 3 * 8;
 pub(super) fn pictures(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Error> {
     if args.patches.is_some() || args.coarsen.is_some() {
         let problem = "--patches and --coarsen are for tables, not for pictures";
-        return Err(Error::Input(problem.to_owned()));
+        return Err(Error::input(problem));
     }
     let image = scene.map(|scene| &scene.image);
     let exposure = args
@@ -54,14 +54,17 @@ pub(super) fn pictures(args: &CompareCommand, scene: Option<&Scene>) -> Result<C
         |image: &ImageSettings| image.tone != Tone::Clamp || image.exposure.factor().is_none();
     if (found.levels || reference.levels) && args.exposure.is_none() && image.is_some_and(is_lost) {
         let problem = "the scene's exposure is automatic, or its tone is a curve: levels do not tell \
-                       radiance\n   = help: compare .pfm files, or state the --exposure";
-        return Err(Error::Input(problem.to_owned()));
+                       radiance";
+        return Err(Error::with_help(
+            problem,
+            "compare .pfm files, or state the --exposure",
+        ));
     }
     let map = args.regions.as_deref();
     let map = map.map(|path| decode_regions(&read(path)?).map_err(at(path)));
     let map = map.transpose()?;
     let errors = compare_pictures(&found.image, &reference, map.as_ref(), params.exposure);
-    let named = errors.map_err(|error| Error::Input(error.to_string()))?;
+    let named = errors.map_err(|error| Error::input(error.to_string()))?;
     if let Some(path) = &args.difference {
         let bytes = difference(path, &found, &reference);
         // Not earlier: the allocator gives each thread addresses of its own, which under `ulimit -v` may be

@@ -99,7 +99,7 @@ impl Pipeline<'_> {
                 let factors = self.known_form_factors()?;
                 let errors = factors.rows.iter().map(|row| row.error);
                 let errors: Option<Vec<f64>> = errors.collect();
-                table(errors.ok_or_else(no_errors)?)
+                table(errors.ok_or(Error::NoErrors)?)
             }
             Quantity::FactorsFrom(patch) => table(self.known_form_factors()?.row(patch)),
         })
@@ -227,10 +227,4 @@ fn irradiance(factors: &FormFactors, exitance: &[[f32; 3]], visible: &[f32]) -> 
         }
     }
     result
-}
-
-fn no_errors() -> Error {
-    Error::Input(
-        "the form factors know nothing of their errors\n   = help: use --mode accurate".to_owned(),
-    )
 }

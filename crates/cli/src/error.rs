@@ -1,0 +1,124 @@
+//! What can go wrong, as a command says it: with its flags, and with an exit code.
+
+use radiosity::Remedy;
+use radiosity::cache::{CacheError, Changed};
+use radiosity::scene::SceneError;
+use radiosity::words::grouped;
+use std::io;
+use std::path::PathBuf;
+
+/// Why a command ended without its result.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Error {
+    /// A stage.
+    #[error(transparent)]
+    Engine(#[from] radiosity::Error),
+    /// What the command was told, or a file that it was to read.
+    #[error("{problem}")]
+    Input {
+        problem: String,
+        help: Option<String>,
+    },
+    /// The cache folder that the command is about, which it cannot do without.
+    #[error(transparent)]
+    CacheFolder(CacheError),
+    /// A result cannot be written.
+    #[error("cannot write {}: {error}", path.display())]
+    Output {
+        path: PathBuf,
+        #[source]
+        error: io::Error,
+    },
+    #[error("cannot start threads: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+impl From<SceneError> for Error {
+    fn from(error: SceneError) -> Error {
+        Error::Engine(error.into())
+    }
+}
+
+impl From<Changed> for Error {
+    fn from(error: Changed) -> Error {
+        Error::Engine(error.into())
+    }
+}
+
+impl Error {
+    /// An input that is wrong, where the problem tells what to do.
+    pub(crate) fn input(problem: impl Into<String>) -> Error {
+        Error::Input {
+            problem: problem.into(),
+            help: None,
+        }
+    }
+
+    /// An input that is wrong, and what to do.
+    pub(crate) fn with_help(problem: impl Into<String>, help: impl Into<String>) -> Error {
+        Error::Input {
+            problem: problem.into(),
+            help: Some(help.into()),
+        }
+    }
+
+    /// The exit code of the command.
+    pub(crate) fn exit_code(&self) -> u8 {
+        use radiosity::Error as Engine;
+        match self {
+            Error::Engine(Engine::Cache(_)) | Error::CacheFolder(_) | Error::Output { .. } => 1,
+            Error::Engine(Engine::Resources { .. }) | Error::Threads(_) => 4,
+            Error::Engine(Engine::Unsolvable { .. }) => 5,
+            Error::Engine(_) | Error::Input { .. } => 3,
+        }
+    }
+
+    /// All that is printed.
+    pub(crate) fn report(&self) -> String {
+        if let Error::Engine(radiosity::Error::Scene(error)) = self {
+            // It shows the place in the file.
+            return error.to_string();
+        }
+        match self.help() {
+            Some(help) => format!("error: {self}\n   = help: {help}"),
+            None => format!("error: {self}"),
+        }
+    }
+
+    fn help(&self) -> Option<String> {
+        match self {
+            Error::Engine(error) => error.remedy().as_ref().map(by_flags),
+            Error::Input { help, .. } => help.clone(),
+            Error::CacheFolder(_) => Some("choose another folder with --cache".to_owned()),
+            Error::Output { .. } => None,
+            Error::Threads(_) => Some("use fewer (--threads)".to_owned()),
+        }
+    }
+}
+
+/// A remedy, by the flags that there are for it.
+fn by_flags(remedy: &Remedy) -> String {
+    match remedy {
+        Remedy::Camera => format!("{remedy}, or use `solve`"),
+        Remedy::SceneFile => format!("{remedy}, or use `form-factors`"),
+        Remedy::AccurateEstimator => "use --mode accurate".to_owned(),
+        Remedy::AccurateEstimatorOrDarker => {
+            "estimate the form factors with --mode accurate, or lower the reflectances there"
+                .to_owned()
+        }
+        Remedy::MoreSweeps => "lower the reflectances, or allow more with --max-sweeps".to_owned(),
+        Remedy::FewerPatches { fit } => {
+            let flags = "use fewer patches (--patches, or a larger --max-patch-edge or `divisions` of \
+                         surfaces)";
+            let about = |fit: u64| format!(": about {} fit", grouped(fit));
+            format!("{flags}{}", fit.map_or_else(String::new, about))
+        }
+        Remedy::SmallerPictures => format!("{remedy} (--size)"),
+        Remedy::CacheFolder => "choose another folder with --cache, or use --no-cache".to_owned(),
+        Remedy::CacheDisk => "use --no-cache, or a folder on another disk with --cache".to_owned(),
+        Remedy::RunAgain => {
+            "run the same command again, which makes anew what is damaged".to_owned()
+        }
+        _ => remedy.to_string(),
+    }
+}
