@@ -9,8 +9,8 @@ use radiosity_simd::{Float, Simd};
 /// So many walls are tried in turn; more are found by a tree.
 const FASTER_THAN_TREE: usize = 32;
 /// What single precision rounds off products of distances and speeds, in units of the largest
-/// distance between a patch and a wall. Were edges not moved outwards by it, a ray in millions would
-/// slip through between two walls.
+/// distance between a patch and a wall. Were edges not moved outwards by it, a ray in millions
+/// would slip through between two walls.
 const MARGIN: f32 = 8.0 * f32::EPSILON;
 
 /// The walls in front of a patch.
@@ -48,8 +48,8 @@ pub(crate) struct Met {
     pub(crate) backed: u8,
 }
 
-/// The planes of walls, unless there are too many. Of walls in one plane they are the same to the bit, but
-/// for the side that the walls face: rays then meet these at the same distance.
+/// The planes of walls, unless there are too many. Of walls in one plane they are the same to the
+/// bit, but for the side that the walls face: rays then meet these at the same distance.
 pub(crate) fn planes_of_few(walls: &[Blocker], tolerance: f64) -> Option<Vec<Plane>> {
     if walls.len() > FASTER_THAN_TREE {
         return None;
@@ -108,8 +108,8 @@ impl Ahead {
 
     /// What rays from points of the patch, in directions of unit length, meet first.
     ///
-    /// A ray meets a wall if it comes nearer to its plane, and if where it crosses that it is inside of
-    /// all edges. Where a front and a back lie in one plane, it meets the front, as
+    /// A ray meets a wall if it comes nearer to its plane, and if where it crosses that it is
+    /// inside of all edges. Where a front and a back lie in one plane, it meets the front, as
     /// [`Occluders::closest_hit`](radiosity_geometry::Occluders::closest_hit) has it.
     #[inline(always)]
     pub(crate) fn meet<S: Simd>(
@@ -164,8 +164,8 @@ fn reach(patch: &Patch, polygon: &Polygon) -> f64 {
 }
 
 impl Wall {
-    /// The least height over an edge of where rays cross the wall's plane, times their speed toward it.
-    /// Negative outside.
+    /// The least height over an edge of where rays cross the wall's plane, times their speed toward
+    /// it. Negative outside.
     #[inline(always)]
     fn inside<S: Simd>(
         &self,

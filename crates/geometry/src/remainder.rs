@@ -203,8 +203,8 @@ mod tests {
     }
 
     proptest! {
-        /// As files write them: a wall with a door that reaches to its edge and a window beside it, at
-        /// any angle, in any number of digits.
+        /// As files write them: a wall with a door that reaches to its edge and a window beside it,
+        /// at any angle, in any number of digits.
         #[test]
         fn walls_of_rounded_numbers_have_no_slivers(
             angle in 0.0f64..6.3, digits in 6i32..12, door in 0.1f64..0.5, offset in 0.0f64..1.0,
