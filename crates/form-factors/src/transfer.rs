@@ -1,4 +1,6 @@
 //! The kernel of the form factor, summed over the points of a patch and of eight others.
+//!
+//! Long because: the near and the far form of one kernel, side by side.
 
 use crate::samples::{Lanes, Local, Point};
 use radiosity_simd::{Float, Kernel, LANES, Simd};

@@ -5,6 +5,8 @@
 //! surface that hangs together in the plane, so that it does not matter how finely the mesh of a
 //! ceiling is cut. (View3D has the same rule for subsurfaces, which its input has to name: G.
 //! Walton, NISTIR 6925, 2002.)
+//!
+//! Long because: the candidates, the test and the order of layers are one search.
 
 use crate::bounds::Aabb;
 use crate::mesh::{Face, FaceId, Patch};

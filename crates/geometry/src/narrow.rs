@@ -10,6 +10,8 @@
 //! Where counts are powers of two, an edge is cut as its own length asks for, so that neighbours
 //! have the same vertices. In few triangles (one in some hundreds of random ones) a rung would be
 //! too long. They are cut finer: vertices of neighbours are among theirs.
+//!
+//! Long because: the cut, and the way back from a point to its cell, are one scheme.
 
 mod needle;
 

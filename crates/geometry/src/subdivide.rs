@@ -1,4 +1,6 @@
 //! Stage 1: surfaces into patches.
+//!
+//! Long because: the stage's input, its errors and the cells of each shape.
 
 use crate::check::ShapeError;
 use crate::covers::Covers;

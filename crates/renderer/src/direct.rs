@@ -6,6 +6,8 @@
 //! shadow on the emitter is what lies in a cone; cut out of the emitter, it leaves convex pieces.
 //! No sample is taken, and nothing is noisy: penumbrae are exact. Behind dozens of faces, as of a
 //! mesh, samples are cheaper, and are taken.
+//!
+//! Long because: the closed form and the samples that stand in for it share one emitter's state.
 
 mod clear;
 mod pieces;

@@ -1,4 +1,6 @@
 //! What scenes mean when they are right, and what is said when they are wrong.
+//!
+//! Long because: one table of all mistakes.
 
 mod files;
 mod meshes;

@@ -25,6 +25,8 @@
 //!
 //! The numbers `alpha` and `beta` tell the smallest eigenvalue of `gain M` ([`crate::channel`]),
 //! and that tells the error.
+//!
+//! Long because: the algorithm, its stopping rule and its check are read together.
 
 use crate::Rgb;
 use crate::channel::Channel;

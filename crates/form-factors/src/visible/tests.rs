@@ -1,4 +1,6 @@
 //! Shares by lines, against rays and against what is known of them.
+//!
+//! Long because: samplers whose answers are known are written out.
 
 use super::*;
 use crate::blocker::Blocker;
