@@ -1,4 +1,6 @@
 //! Nothing is computed twice, and nothing stale or damaged is ever used.
+//!
+//! Long because: one test for each reason to compute anew.
 
 use radiosity::cache::Store;
 use radiosity::geometry::{Camera, DVec3, Divisions};

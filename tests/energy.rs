@@ -21,8 +21,8 @@ struct Shares {
     background: f64,
 }
 
-/// From patches in proportion to the power that would leave them if nothing of them were hidden, in the
-/// direction of diffuse light. What hidden parts would send to backs does not count.
+/// From patches in proportion to the power that would leave them if nothing of them were hidden, in
+/// the direction of diffuse light. What hidden parts would send to backs does not count.
 fn traced(pipeline: &Pipeline<'_>, light: &PatchLight) -> Shares {
     let mesh = pipeline.mesh();
     let radiosity = &light.radiosity;
@@ -102,8 +102,9 @@ fn reported(pipeline: &Pipeline<'_>, solved: &Solved) -> Shares {
     }
 }
 
-/// What the rows make of the power that leaves all patches: the standard error of what they say of backs
-/// and background, whose errors are independent, and the most that the errors of factors add up to.
+/// What the rows make of the power that leaves all patches: the standard error of what they say of
+/// backs and background, whose errors are independent, and the most that the errors of factors add
+/// up to.
 fn errors_of_rows(pipeline: &Pipeline<'_>, light: &PatchLight) -> [f64; 2] {
     let rows = pipeline.form_factors(Sources::Cached).unwrap();
     let rows = rows.form_factors.rows.iter();

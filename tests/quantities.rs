@@ -30,7 +30,8 @@ fn pictures(pipeline: &Pipeline<'_>, light: &PatchLight, quantity: Quantity) -> 
         .unwrap()
 }
 
-/// The largest difference between pixels of an image and what it should be, relative to the mean of that.
+/// The largest difference between pixels of an image and what it should be, relative to the mean of
+/// that.
 fn worst(found: &Image, expected: &Image, of: impl Fn(f32, f32) -> f32) -> f32 {
     let pairs = found
         .pixels
@@ -42,8 +43,8 @@ fn worst(found: &Image, expected: &Image, of: impl Fn(f32, f32) -> f32) -> f32 {
     pairs.map(|(a, b)| of(*a, *b).abs()).fold(0.0, f32::max) / mean
 }
 
-/// Direct and indirect light are all light, but for rounding. Smooth pictures are kept from swinging
-/// beside shadows, each in its own way, and add up within some percent there.
+/// Direct and indirect light are all light, but for rounding. Smooth pictures are kept from
+/// swinging beside shadows, each in its own way, and add up within some percent there.
 #[test]
 fn direct_and_indirect_light_are_all_light() {
     let scene = small("cornell", Mode::Accurate);
@@ -84,8 +85,8 @@ fn as_much_arrives_in_a_furnace_as_leaves() {
     }
 }
 
-/// The solution is that of the finite elements: whole patches in the simpler modes, their visible parts
-/// in the accurate one, which shine more than the mean of the patch.
+/// The solution is that of the finite elements: whole patches in the simpler modes, their visible
+/// parts in the accurate one, which shine more than the mean of the patch.
 #[test]
 fn finite_elements_are_whole_patches_or_what_is_visible() {
     for mode in [Mode::Regular, Mode::Accurate] {
@@ -125,7 +126,8 @@ fn finite_elements_are_whole_patches_or_what_is_visible() {
     }
 }
 
-/// `B = rho H` where nothing is emitted: on the white floor of the room, in all modes, patch by patch.
+/// `B = rho H` where nothing is emitted: on the white floor of the room, in all modes, patch by
+/// patch.
 #[test]
 fn patches_reflect_what_arrives() {
     for mode in [Mode::Regular, Mode::Accurate] {
@@ -134,7 +136,8 @@ fn patches_reflect_what_arrives() {
         let light = solve(&pipeline).light;
         let [leaving, arriving] = [Quantity::Radiosity, Quantity::Irradiance]
             .map(|quantity| pictures(&pipeline, &light, quantity).swap_remove(0));
-        // The middle of the lowest row of pixels shows the floor, which reflects the same of every channel.
+        // The middle of the lowest row of pixels shows the floor, which reflects the same of every
+        // channel.
         let floor = |image: &Image| Image {
             width: image.width,
             height: 1,

@@ -9,8 +9,8 @@ use radiosity_tests::{
 };
 
 /// What the course program is known to reach on its scene, to a tenth of a point: RMSE 4.50 %
-/// and bias +1.63 % of the radiosities, constant picture 9.0 % away from edges. The smooth picture must
-/// be better than the course's, which has 5.9 %.
+/// and bias +1.63 % of the radiosities, constant picture 9.0 % away from edges. The smooth picture
+/// must be better than the course's, which has 5.9 %.
 #[test]
 fn the_course_is_reproduced() {
     let scene = shipped("cornell");
@@ -48,9 +48,9 @@ fn the_course_is_reproduced() {
     assert!(smooth.rmse_percent < 5.9, "smooth picture {smooth:?}");
 }
 
-/// What patches of constant radiosity cost is all that is left: 1.28 % and 0.52 % with factors that are
-/// nearly exact where whole patches are the elements, and 0.39 % over the larger cells; less where what is
-/// visible of them is.
+/// What patches of constant radiosity cost is all that is left: 1.28 % and 0.52 % with factors that
+/// are nearly exact where whole patches are the elements, and 0.39 % over the larger cells; less
+/// where what is visible of them is.
 #[test]
 fn accurate_factors_leave_the_error_of_the_patches() {
     let mut scene = shipped("cornell");
@@ -82,10 +82,11 @@ fn accurate_factors_leave_the_error_of_the_patches() {
     }
 }
 
-/// Pictures from nearly exact factors, away from edges: what Catmull and Rom's spline leaves of exact means
-/// is 4.3 % of 12 x 12 patches, 2.0 % of 24 x 24 and 1.15 % of 48 x 48, and smooth pictures must be as
-/// good, but for a tenth at 12 x 12. With exact direct light there must be less than half of that; what
-/// patches of constant radiosity do to the bias of light that is reflected more often remains.
+/// Pictures from nearly exact factors, away from edges: what Catmull and Rom's spline leaves of
+/// exact means is 4.3 % of 12 x 12 patches, 2.0 % of 24 x 24 and 1.15 % of 48 x 48, and smooth
+/// pictures must be as good, but for a tenth at 12 x 12. With exact direct light there must be less
+/// than half of that; what patches of constant radiosity do to the bias of light that is reflected
+/// more often remains.
 #[test]
 fn pictures_are_near_the_truth() {
     let mut scene = shipped("cornell");
@@ -115,7 +116,8 @@ fn pictures_are_near_the_truth() {
     }
 }
 
-/// Gathering at samples of 12 x 12 patches leaves a part of what patches do to the bias, and some noise.
+/// Gathering at samples of 12 x 12 patches leaves a part of what patches do to the bias, and some
+/// noise.
 #[test]
 fn gathered_light_is_nearer() {
     let mut scene = shipped("cornell");

@@ -5,8 +5,9 @@ use std::process::{Command, ExitCode};
 use std::time::Instant;
 
 /// What a change must pass, in the order of what fails fastest.
-const STEPS: [(&str, &[&str]); 6] = [
+const STEPS: [(&str, &[&str]); 7] = [
     ("format", &["fmt", "--all", "--check"]),
+    ("tidy", &["xtask", "tidy"]),
     (
         "lints",
         &[
@@ -48,11 +49,7 @@ const STEPS: [(&str, &[&str]); 6] = [
 
 /// Runs all steps and stops at the first that fails.
 pub(crate) fn run(root: &Path) -> ExitCode {
-    let folder = if root.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        root
-    };
+    let folder = crate::folder(root);
     for (name, arguments) in STEPS {
         let start = Instant::now();
         eprintln!("ci: {name}: cargo {}", arguments.join(" "));

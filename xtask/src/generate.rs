@@ -9,8 +9,8 @@ use std::process::ExitCode;
 pub(crate) enum Generated {
     /// scenes/knot.obj: a tube along a trefoil knot
     Knot,
-    /// A View3D scene: the closed box of `tests/data/box313`, its 313 rectangles cut finer, those of
-    /// one rectangle combined, with plates that stand in the way
+    /// A View3D scene: the closed box of `tests/data/box313`, its 313 rectangles cut finer, those
+    /// of one rectangle combined, with plates that stand in the way
     Box {
         /// How many rectangles: 313 times a square number
         #[arg(long, default_value = "1252")]
@@ -22,7 +22,8 @@ pub(crate) enum Generated {
         #[arg(long, short)]
         output: Option<PathBuf>,
     },
-    /// A View3D scene: a dented ball of many triangles that stand in the way, in a box of 1,944 patches
+    /// A View3D scene: a dented ball of many triangles that stand in the way, in a box of 1,944
+    /// patches
     Blob {
         /// About how many triangles
         #[arg(long, default_value = "70000")]

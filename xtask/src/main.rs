@@ -2,6 +2,7 @@
 
 mod ci;
 mod generate;
+mod tidy;
 
 use clap::{Parser, Subcommand};
 use generate::Generated;
@@ -24,6 +25,8 @@ enum Task {
     Radiosity(Box<Command>),
     /// Run everything that a change must pass: format, lints, docs, tests, a render
     Ci,
+    /// Check what no compiler does: lengths, first lines, words, names of types, links, licenses
+    Tidy,
     /// Measure what is claimed
     #[command(disable_help_flag = true)]
     Bench {
@@ -55,7 +58,17 @@ fn main() -> ExitCode {
         Task::Radiosity(command) => run(&command, &Site::checkout(&root)),
         Task::Bench { arguments } => bench(&arguments, &root),
         Task::Ci => ci::run(&root),
+        Task::Tidy => tidy::run(&root),
         Task::Generate { what } => generate::run(&what, &root),
+    }
+}
+
+/// The checkout as a folder to run programs in.
+fn folder(root: &Path) -> &Path {
+    if root.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        root
     }
 }
 

@@ -1,8 +1,9 @@
 //! The pictures of the course's program, as slow as they were: what speeds are compared with.
 //!
-//! A transcription of the loop structure of that C++ program, not the program: each picture has rays of
-//! its own, four for each of 2 x 2 sub-pixels at tent-distributed places, each tried against all
-//! rectangles; the patch-constant picture looks up the patch, the smooth one 4 x 4 patches around.
+//! A transcription of the loop structure of that C++ program, not the program: each picture has
+//! rays of its own, four for each of 2 x 2 sub-pixels at tent-distributed places, each tried
+//! against all rectangles; the patch-constant picture looks up the patch, the smooth one 4 x 4
+//! patches around.
 
 use crate::baseline::{Baseline, Ray};
 use radiosity::geometry::{DVec3, Grid, Mesh};

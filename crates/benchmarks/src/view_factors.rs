@@ -16,8 +16,8 @@ use std::path::Path;
 use std::time::Instant;
 
 /// A size of the box, the tolerance at which its factors, lumped to those between the 313
-/// rectangles, are as accurate as View3D's at 313, and what View3D takes when told of the obstruction
-/// apart, which is its faster form.
+/// rectangles, are as accurate as View3D's at 313, and what View3D takes when told of the
+/// obstruction apart, which is its faster form.
 struct Size {
     elements: u32,
     tolerance: f64,

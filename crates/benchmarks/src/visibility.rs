@@ -1,7 +1,7 @@
 //! Segments between patches, among 70,000 triangles, beside Embree.
 //!
-//! Embree (Debian's `libembree-dev`) is no dependency: `embree.c` is compiled by the system's C compiler
-//! when the bench runs, and left out with a message where that fails.
+//! Embree (Debian's `libembree-dev`) is no dependency: `embree.c` is compiled by the system's C
+//! compiler when the bench runs, and left out with a message where that fails.
 
 use crate::Error;
 use crate::figure::{Figure, Target, show};

@@ -6,7 +6,8 @@
 //! ([`compare_tables`]). Either way an error is a percentage of the mean of the reference over
 //! the same values.
 //!
-//! This crate knows nothing of scenes or of how pictures are made and encoded, and touches no files.
+//! This crate knows nothing of scenes or of how pictures are made and encoded, and touches no
+//! files.
 
 mod difference;
 mod errors;

@@ -8,7 +8,10 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PictureError {
     /// They differ in size.
-    #[error("{what} is {} x {} pixels, but the reference {} x {}", size.0, size.1, reference.0, reference.1)]
+    #[error(
+        "{what} is {} x {} pixels, but the reference {} x {}",
+        size.0, size.1, reference.0, reference.1
+    )]
     Size {
         /// The picture or the map of regions.
         what: &'static str,

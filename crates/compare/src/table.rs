@@ -118,7 +118,10 @@ pub enum TableError {
         count: u32,
     },
     /// A patch of the scene is in one table only.
-    #[error("{table} lacks patch {},{} of `{surface}`: were both made from the same patches?", cell[0], cell[1])]
+    #[error(
+        "{table} lacks patch {},{} of `{surface}`: were both made from the same patches?",
+        cell[0], cell[1]
+    )]
     Missing {
         /// Which table.
         table: &'static str,
@@ -128,7 +131,11 @@ pub enum TableError {
         cell: [u32; 2],
     },
     /// A table has a patch that the scene does not have.
-    #[error("line {line} of {table}: the scene has no patch {},{} of `{surface}`: name its subdivision with --patches", cell[0], cell[1])]
+    #[error(
+        "line {line} of {table}: the scene has no patch {},{} of `{surface}`: \
+         name its subdivision with --patches",
+        cell[0], cell[1]
+    )]
     Unknown {
         /// Which table.
         table: &'static str,
@@ -150,8 +157,8 @@ const COLUMNS: [&str; 9] = [
 /// How many columns a table has that does not tell of errors.
 const WITHOUT_ERRORS: usize = 6;
 
-/// Reads a table: the columns `surface,ia,ib,B_r,B_g,B_b`, with or without `se_r,se_g,se_b`. Names may
-/// have an apostrophe before them, as [`table_name`] says.
+/// Reads a table: the columns `surface,ia,ib,B_r,B_g,B_b`, with or without `se_r,se_g,se_b`. Names
+/// may have an apostrophe before them, as [`table_name`] says.
 ///
 /// ```
 /// use radiosity_compare::parse_table;

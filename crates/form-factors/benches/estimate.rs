@@ -1,4 +1,5 @@
-//! The estimators per pair of patches: in one room, and where one kernel does nearly all of the work.
+//! The estimators per pair of patches: in one room, and where one kernel does nearly all of the
+//! work.
 
 #![allow(missing_docs, reason = "criterion's macros write public items")]
 

@@ -1,5 +1,6 @@
 //! The accurate estimator of one pair: after it has been classified (hidden, clear, or partly
-//! hidden), *integrate* the unoccluded kernel, and *measure* the visible share where there is doubt.
+//! hidden), *integrate* the unoccluded kernel, and *measure* the visible share where there is
+//! doubt.
 
 use crate::blocker::Blocker;
 use crate::budget::Budget;

@@ -49,8 +49,9 @@ impl Estimation<'_> {
             && *tiles <= self.tiles_before(rows)
     }
 
-    /// Goes on with rows until they are finished, or `is_time` to stop: it is asked after each part, of
-    /// some hundred pairs where pairs are slow. Returns whether they are finished. Adds to the tally.
+    /// Goes on with rows until they are finished, or `is_time` to stop: it is asked after each
+    /// part, of some hundred pairs where pairs are slow. Returns whether they are finished. Adds to
+    /// the tally.
     ///
     /// The result depends neither on the number of threads nor on where it stops.
     pub fn go_on(

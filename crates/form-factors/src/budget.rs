@@ -2,8 +2,8 @@
 //!
 //! To measure takes least work where errors go with the square root of factors: with
 //! `weight_i = sum_j sqrt(F_ij)` over the partly hidden pairs of a row, the errors
-//! `tolerance sqrt(F_ij) / weight_i` sum to the tolerance. A pair is in two rows, and has the smaller
-//! part of both.
+//! `tolerance sqrt(F_ij) / weight_i` sum to the tolerance. A pair is in two rows, and has the
+//! smaller part of both.
 
 use crate::accurate::Accurate;
 use crate::estimate::Estimation;
@@ -14,7 +14,8 @@ use crate::quotient;
 use crate::tiles::{Group, Tile, Tiling};
 use rayon::prelude::*;
 
-/// So many pairs of patches stand for all of two tiles that are near each other: factors differ there.
+/// So many pairs of patches stand for all of two tiles that are near each other: factors differ
+/// there.
 const NEAR_PAIRS: usize = 8;
 /// Tiles are near each other within so many of their sizes.
 const NEAR: f64 = 2.0;
@@ -103,7 +104,8 @@ impl Estimation<'_> {
         }
     }
 
-    /// Whether something of this may hide a part of a patch from another, neither of which is covered.
+    /// Whether something of this may hide a part of a patch from another, neither of which is
+    /// covered.
     fn is_partly_hidden(&self, pair: [usize; 2], between: &Between) -> bool {
         let is_covered = pair.map(|patch| self.areas[patch] == 0.0);
         let parts = pair.map(|patch| &self.parts[patch]);
@@ -119,8 +121,8 @@ impl Estimation<'_> {
         distance < NEAR * NEAR * (area(0) + area(1))
     }
 
-    /// Adds what so many pairs like this one weigh in the rows of both, if something stands between them
-    /// that hides a part of one from the other.
+    /// Adds what so many pairs like this one weigh in the rows of both, if something stands between
+    /// them that hides a part of one from the other.
     fn add_weights_of_pair(
         &self,
         accurate: &Accurate<'_>,
@@ -139,8 +141,8 @@ impl Estimation<'_> {
     }
 }
 
-/// Raises the weights of these patches to their mean: none of the few pairs of a patch that were looked at
-/// may be partly hidden, where others are.
+/// Raises the weights of these patches to their mean: none of the few pairs of a patch that were
+/// looked at may be partly hidden, where others are.
 fn raise_to_mean(weights: &mut [f64], patches: &[usize]) {
     let sum: f64 = patches.iter().map(|&patch| weights[patch]).sum();
     let mean = sum / patches.len() as f64;

@@ -8,9 +8,10 @@ use std::ops::Range;
 
 /// Samples of the lattice of a cell, under each shift.
 pub(crate) const IN_CELL: usize = 16;
-/// A jump that passes through both halves of a cell leaves each a quarter of its variance, since each
-/// has half of the volume. What bends is half as high if the cell is halved across the bend, and then a
-/// sixteenth is left. A half that seems to have less may well have missed what it is about.
+/// A jump that passes through both halves of a cell leaves each a quarter of its variance, since
+/// each has half of the volume. What bends is half as high if the cell is halved across the bend,
+/// and then a sixteenth is left. A half that seems to have less may well have missed what it is
+/// about.
 const LEAST_LEFT: f64 = 1.0 / 16.0;
 
 /// By shift: the sums of the kernel, and of the kernel where there is a view.
@@ -156,8 +157,8 @@ impl Cell {
     }
 }
 
-/// The standard error of the sum over cells of `visible - share * all`, so large that 19 of 20 errors are
-/// less than twice as large.
+/// The standard error of the sum over cells of `visible - share * all`, so large that 19 of 20
+/// errors are less than twice as large.
 ///
 /// The scatter of eight lanes has seven degrees of freedom, and is itself in error. That of several
 /// cells has as many as Welch and Satterthwaite tell ("An Approximate Distribution of Estimates of

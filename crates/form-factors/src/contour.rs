@@ -51,8 +51,8 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// counter-clockwise seen from its front. Edges that part by no more than `tolerance`, to which
 /// coordinates are rounded, are parallel.
 ///
-/// The terms are as large as the square of the larger polygon, or of the distance, and cancel to what is
-/// as small as the smaller one: `rounding` is what that costs.
+/// The terms are as large as the square of the larger polygon, or of the distance, and cancel to
+/// what is as small as the smaller one: `rounding` is what that costs.
 pub(crate) fn exchange(i: &[DVec3], j: &[DVec3], tolerance: f64) -> Integral {
     // Any constant may be taken from the logarithm, as contours are closed: one that makes it
     // small keeps the rounding small.

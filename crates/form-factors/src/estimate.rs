@@ -166,8 +166,8 @@ impl<'a> Estimation<'a> {
         Some(first..last)
     }
 
-    /// By patch, the area that exchanges light, in square scene units: for the accurate estimator without
-    /// what other faces lie on, and 0 where they cover all.
+    /// By patch, the area that exchanges light, in square scene units: for the accurate estimator
+    /// without what other faces lie on, and 0 where they cover all.
     pub fn areas(&self) -> &[f64] {
         &self.areas
     }

@@ -6,8 +6,8 @@ use arrayvec::ArrayVec;
 use radiosity_geometry::DVec3;
 use radiosity_simd::{Float, Simd};
 
-/// A triangle as the lines across it that are parallel to one of its edges: from that they shrink to
-/// a point.
+/// A triangle as the lines across it that are parallel to one of its edges: from that they shrink
+/// to a point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fan {
     pub(crate) apex: DVec3,
@@ -15,14 +15,15 @@ pub(crate) struct Fan {
     pub(crate) sides: [DVec3; 2],
     /// Twice that of the triangle.
     pub(crate) area: f64,
-    /// Heights over it are those over the triangle, in units of `width`: the distance of the longest
-    /// line from the apex.
+    /// Heights over it are those over the triangle, in units of `width`: the distance of the
+    /// longest line from the apex.
     over: Plane,
     /// Heights over it are distances from the line through the apex, in the same units.
     beyond: Plane,
 }
 
-/// Points are at least so far in front of a triangle, in units of its width: nothing is divided by zero.
+/// Points are at least so far in front of a triangle, in units of its width: nothing is divided by
+/// zero.
 const NEAREST: f64 = 1e-12;
 
 impl Fan {
@@ -54,8 +55,8 @@ impl Fan {
         place
     }
 
-    /// The length of a line, in units of the longest, at an angle that is `turn` of the way from the apex
-    /// to the longest line, seen from a point; and its derivative by `turn`.
+    /// The length of a line, in units of the longest, at an angle that is `turn` of the way from
+    /// the apex to the longest line, seen from a point; and its derivative by `turn`.
     ///
     /// Lines that are drawn evenly by length hardly ever pass near a point that nearly touches the
     /// triangle, where most of the light is. Across the lines, the triangle is a segment that
@@ -71,8 +72,8 @@ impl Fan {
     /// ```
     ///
     /// By the law of sines `length = L sin phi / (L sin phi + H sin(Omega - phi))`. With
-    /// `v = 2 turn - 1`, `tan((phi - Omega / 2) / 2) = tan(Omega / 4) v` makes `phi` go with `turn`, almost
-    /// evenly, and with `q = tan^2(Omega / 4)` the sines are `turn (1 - q v)` and
+    /// `v = 2 turn - 1`, `tan((phi - Omega / 2) / 2) = tan(Omega / 4) v` makes `phi` go with
+    /// `turn`, almost evenly, and with `q = tan^2(Omega / 4)` the sines are `turn (1 - q v)` and
     /// `(1 - turn) (1 + q v)`, but for a common factor. All terms are positive: nothing is lost
     /// where the triangle is far away, and single precision is enough to draw lines.
     #[inline(always)]
@@ -113,9 +114,9 @@ fn half_cosine<S: Simd>(simd: S, sine: S::F32, cosine: S::F32) -> S::F32 {
     cosine.if_less(zero, obtuse, acute)
 }
 
-/// The lines of a triangle are parallel to its longest edge, those of a quad to its longer diagonal:
-/// to neither edge of a rectangle, since shadows of other rectangles often are, and a line that runs
-/// along the edge of a shadow is all light or all dark.
+/// The lines of a triangle are parallel to its longest edge, those of a quad to its longer
+/// diagonal: to neither edge of a rectangle, since shadows of other rectangles often are, and a
+/// line that runs along the edge of a shadow is all light or all dark.
 pub(crate) fn fans(corners: &[DVec3], normal: DVec3) -> ArrayVec<Fan, 2> {
     let triangles: ArrayVec<[DVec3; 3], 2> = match *corners {
         [a, b, c] => {
@@ -196,8 +197,8 @@ mod tests {
         }
     }
 
-    /// From anywhere in front of a triangle, near and far: lines go all the way from the apex to the
-    /// longest, and the derivative is that.
+    /// From anywhere in front of a triangle, near and far: lines go all the way from the apex to
+    /// the longest, and the derivative is that.
     #[test]
     fn lines_sweep_the_triangle() {
         let triangle = [

@@ -9,8 +9,8 @@ use radiosity_geometry::DVec3;
 use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
 use std::f64::consts::PI;
 
-/// The patches of a tile, one per lane. Lanes without one repeat the first, and so do those of patches in
-/// pieces, which are never far.
+/// The patches of a tile, one per lane. Lanes without one repeat the first, and so do those of
+/// patches in pieces, which are never far.
 pub(crate) struct FarTile {
     /// Which lanes have one.
     used: u8,

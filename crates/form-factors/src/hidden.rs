@@ -3,15 +3,16 @@
 use crate::ahead::Met;
 use radiosity_simd::LANES;
 
-/// Where backs are more than this share of what a point sees, it lies inside of something, or right under
-/// it. Under a low table that is open at its sides less is seen of backs, and some light arrives.
+/// Where backs are more than this share of what a point sees, it lies inside of something, or right
+/// under it. Under a low table that is open at its sides less is seen of backs, and some light
+/// arrives.
 const HIDDEN: f64 = 0.95;
 /// Where they are more than this in a cell of the first look, it may be hidden.
 const SUSPICIOUS: f64 = 0.9;
 /// And a part of it, where they are more than this, and twice what they are in all cells.
 const PARTLY_SUSPICIOUS: f64 = 0.6;
-/// Cells of which fewer rays than this share tell something do not count. In a corner under a tall box a
-/// quarter of them does, in a niche less.
+/// Cells of which fewer rays than this share tell something do not count. In a corner under a tall
+/// box a quarter of them does, in a niche less.
 const ENOUGH: f64 = 1.0 / 16.0;
 
 /// Where on the patch eight rays started, the weight of each, and which of them met backs.
@@ -24,8 +25,8 @@ pub(crate) struct Starts {
 
 /// What rays from a part of a patch have met, by their weights.
 ///
-/// Fronts that have backs in the same place tell nothing, unless these are their own reverse: there may be
-/// a box against a wall, over a floor that is hidden, or another room behind it.
+/// Fronts that have backs in the same place tell nothing, unless these are their own reverse: there
+/// may be a box against a wall, over a floor that is hidden, or another room behind it.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Cell {
     all: f64,
@@ -87,8 +88,9 @@ pub(crate) fn is_suspicious(cells: &[Cell]) -> bool {
     most > SUSPICIOUS || most > PARTLY_SUSPICIOUS && most > 2.0 * Cell::sum(cells).backs()
 }
 
-/// The visible share of a square of cells, of which some tell. A cell beside a hidden one may be hidden in
-/// part, and then sees more of backs than cells elsewhere do. All is visible if no cell tells.
+/// The visible share of a square of cells, of which some tell. A cell beside a hidden one may be
+/// hidden in part, and then sees more of backs than cells elsewhere do. All is visible if no cell
+/// tells.
 pub(crate) fn visible_share(cells: &[Cell]) -> f64 {
     let edge = cells.len().isqrt();
     let is_hidden = |cell: usize| cells[cell].backs() > HIDDEN;

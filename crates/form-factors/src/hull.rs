@@ -1,4 +1,5 @@
-//! The space between two parts, the convex hull of both: what lies outside of it stands in nobody's way.
+//! The space between two parts, the convex hull of both: what lies outside of it stands in nobody's
+//! way.
 
 use crate::blocker::Blocker;
 use crate::part::Part;

@@ -21,12 +21,12 @@ use std::f64::consts::TAU;
 const POINTS: usize = 3;
 /// The distance of the edges, in radii of the small patch.
 const FAR: f64 = 10.0;
-/// What the rule leaves beyond that, relative to the exchange: `FAR^-6`, as many orders as it is exact
-/// to, and as it is for patches far apart ([`crate::far`]) a fiftieth of it.
+/// What the rule leaves beyond that, relative to the exchange: `FAR^-6`, as many orders as it is
+/// exact to, and as it is for patches far apart ([`crate::far`]) a fiftieth of it.
 const ERROR: f64 = 2e-8;
 
-/// `S` of a small convex polygon with a large one, each wholly in front of the other; `None` if the edges of
-/// the large one are too near.
+/// `S` of a small convex polygon with a large one, each wholly in front of the other; `None` if the
+/// edges of the large one are too near.
 pub(crate) fn exchange(small: &[DVec3], normal: DVec3, large: &[DVec3]) -> Option<Integral> {
     let center = small.iter().sum::<DVec3>() / small.len() as f64;
     let radius = small.iter().map(|corner| corner.distance(center));

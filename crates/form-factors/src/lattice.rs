@@ -1,6 +1,6 @@
-//! Samples of the unit cube: those of an embedded lattice, shifted at random: eight shifts, one per lane,
-//! whose scatter tells the error (Cranley & Patterson, "Randomization of Number Theoretic Methods for
-//! Multiple Integration", 1976).
+//! Samples of the unit cube: those of an embedded lattice, shifted at random: eight shifts, one per
+//! lane, whose scatter tells the error (Cranley & Patterson, "Randomization of Number Theoretic
+//! Methods for Multiple Integration", 1976).
 
 use crate::random::Stream;
 use radiosity_simd::{Float, LANES, Simd};
@@ -73,9 +73,9 @@ pub(crate) fn ratio(part: &[f64; LANES], all: &[f64; LANES]) -> (f64, f64) {
 
 /// Generates a lattice in the order of van der Corput, so that every power of two of its points
 /// is a lattice too (Cools, Kuo & Nuyens, "Constructing Embedded Lattice Rules for Multivariate
-/// Integration", 2006). Found bit by bit, with the 4000 best of each size kept, by the variance that
-/// folded lattices leave in three coordinates and in four; sizes of 16 to 128 points count most. What is
-/// published is made for thousands of points.
+/// Integration", 2006). Found bit by bit, with the 4000 best of each size kept, by the variance
+/// that folded lattices leave in three coordinates and in four; sizes of 16 to 128 points count
+/// most. What is published is made for thousands of points.
 const GENERATOR: [u32; 4] = [1, 7597, 3013, 7805];
 
 /// A coordinate of the `k`-th point of the lattice.
@@ -90,9 +90,9 @@ fn on_lattice(k: usize, c: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// The variance that shifts leave of a lattice, for a worst function of the first coordinates with
-    /// bounded slopes at the borders: folded, its spectrum falls as the square of each frequency. The
-    /// sum of their fourth powers is Bernoulli's polynomial.
+    /// The variance that shifts leave of a lattice, for a worst function of the first coordinates
+    /// with bounded slopes at the borders: folded, its spectrum falls as the square of each
+    /// frequency. The sum of their fourth powers is Bernoulli's polynomial.
     fn variance(coordinates: usize, samples: usize) -> f64 {
         let spectrum = |x: f64| {
             let bernoulli = x.powi(4) - 2.0 * x.powi(3) + x * x - 1.0 / 30.0;

@@ -11,8 +11,8 @@
 //! - Reciprocity `A_i F_ij = A_j F_ji` holds by construction: one number
 //!   `S_ij = A_i F_ij` is stored per pair.
 //! - A patch sees what is in front of it and shows its own front; both sides of a face block.
-//! - Two patches of one planar face, or of faces joined to one wall, have `F = 0`. That goes by face:
-//!   two faces of one mesh see each other like any others.
+//! - Two patches of one planar face, or of faces joined to one wall, have `F = 0`. That goes by
+//!   face: two faces of one mesh see each other like any others.
 //! - No entry is clamped so that rows fit: what rows sum to is reported.
 //!
 //! This crate knows nothing of materials, emission, cameras or names, so changing those cannot
@@ -83,8 +83,9 @@ pub enum Estimator {
     /// are overestimated, since the integrand is singular there (two squares at a right angle
     /// by 21.8 % with 3 x 3 points).
     ///
-    /// Where parallelograms and triangles far apart see all of each other, four points with the same
-    /// moments up to the third order stand for all of a patch: factors differ by less than 1e-6.
+    /// Where parallelograms and triangles far apart see all of each other, four points with the
+    /// same moments up to the third order stand for all of a patch: factors differ by less than
+    /// 1e-6.
     Regular {
         /// Points along each edge of a patch.
         points: u32,
@@ -154,9 +155,9 @@ pub struct RowFacts {
 /// The form factors of all pairs.
 #[derive(Clone, Debug)]
 pub struct FormFactors {
-    /// By patch, the area that exchanges light, in square scene units. The accurate estimator leaves out
-    /// what other faces [lie on](radiosity_geometry::Covers); where they cover all, it is 0, and so are
-    /// the patch's factors.
+    /// By patch, the area that exchanges light, in square scene units. The accurate estimator
+    /// leaves out what other faces [lie on](radiosity_geometry::Covers); where they cover all, it
+    /// is 0, and so are the patch's factors.
     pub areas: Vec<f64>,
     /// `S_ij = A_i F_ij`, in units of the total area.
     pub exchange: SymmetricMatrix,

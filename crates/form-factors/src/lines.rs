@@ -1,11 +1,11 @@
 //! The visible share of a pair, line by line: seen from a point on one patch, the shadows of
 //! convex blockers on a line across the other are intervals, and what light passes between them is
-//! known in closed form. What is left to sample is continuous but where a line runs along the edge of
-//! a shadow, and needs far fewer samples than points do.
+//! known in closed form. What is left to sample is continuous but where a line runs along the edge
+//! of a shadow, and needs far fewer samples than points do.
 //!
 //! Lines are drawn by the angle at which the point sees them (`fan.rs`), and so the integrand is
-//! bounded, even where the patches touch: with `rho` the distance of the line, `beta` the angle from its foot
-//! and `phi` that around an axis through the point parallel to it, the solid angle is
+//! bounded, even where the patches touch: with `rho` the distance of the line, `beta` the angle
+//! from its foot and `phi` that around an axis through the point parallel to it, the solid angle is
 //! `cos beta d beta d phi`.
 
 mod light;
@@ -124,7 +124,8 @@ impl Sampler for Lines<'_> {
 
     fn unseen(&self, share: f64) -> f64 {
         match self.tree {
-            // The shadow of a corner that no line has met is small among lines, and on each of them.
+            // The shadow of a corner that no line has met is small among lines, and on each of
+            // them.
             None => {
                 let share = share / self.across.fans.len() as f64;
                 share * libm::cbrt(share)

@@ -4,8 +4,9 @@ use crate::{FormFactors, RowFacts, quotient};
 
 /// Form factors between *parts*: sets of patches, each patch in one of them.
 ///
-/// `F_AB`, the share of the power leaving part `A`, which radiates evenly, that arrives at part `B`,
-/// is the mean of its patches' shares, weighted by area: `sum_{i in A, j in B} A_i F_ij / A_A`.
+/// `F_AB`, the share of the power leaving part `A`, which radiates evenly, that arrives at part
+/// `B`, is the mean of its patches' shares, weighted by area:
+/// `sum_{i in A, j in B} A_i F_ij / A_A`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LumpedFactors {
     /// The area of each part, in square scene units.

@@ -12,8 +12,8 @@ use std::ops::Range;
 
 /// So many faces are listed between two parts; among more, segments find their way by the tree.
 pub(crate) const FEW: usize = MOST_BLOCKERS;
-/// So many for the regular rule, which tries a face on all segments of a pair at once, where tiles have
-/// too many between them.
+/// So many for the regular rule, which tries a face on all segments of a pair at once, where tiles
+/// have too many between them.
 const MANY: usize = 256;
 
 /// What is found out about a patch and some others, often a single one.
@@ -36,8 +36,8 @@ impl<'a> Told<'a> {
 }
 
 impl Estimation<'_> {
-    /// Estimates the exchange of some patches of a tile, by their lanes, with those of some tiles of a
-    /// group; tells of those that may not be zero: the lane, and what is found out.
+    /// Estimates the exchange of some patches of a tile, by their lanes, with those of some tiles
+    /// of a group; tells of those that may not be zero: the lane, and what is found out.
     pub(crate) fn against(
         &self,
         (tile, lanes): (usize, Range<usize>),
@@ -92,9 +92,9 @@ impl Estimation<'_> {
     }
 
     /// What may stand between a patch and a tile, given what may between both tiles; `None` if they
-    /// cannot see each other's fronts. For the regular rule these are all that may stand between the
-    /// tiles, the patch's own wall and what hides all of it included: trying a face on all segments
-    /// takes no longer than finding out.
+    /// cannot see each other's fronts. For the regular rule these are all that may stand between
+    /// the tiles, the patch's own wall and what hides all of it included: trying a face on all
+    /// segments takes no longer than finding out.
     fn view_of_patch<'b>(
         &self,
         between: &'b Between,

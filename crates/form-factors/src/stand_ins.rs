@@ -1,7 +1,7 @@
 //! A few points that stand for all regular ones of a patch as others see it from afar.
 //!
-//! Their moments agree with those of all points up to the third order. Where the kernel is smooth, the
-//! sums over all pairs of points then differ by its fourth and higher derivatives alone.
+//! Their moments agree with those of all points up to the third order. Where the kernel is smooth,
+//! the sums over all pairs of points then differ by its fourth and higher derivatives alone.
 
 use crate::points::{Sample, regular};
 use radiosity_geometry::{DVec3, Polygon};
@@ -33,8 +33,9 @@ fn on_parallelogram(polygon: &Polygon, n: u32) -> [Sample; STAND_INS] {
     })
 }
 
-/// The centroid, whose area is negative (seen from afar, the others make up for it), and a point on the way from it to each corner. By
-/// symmetry there is but one moment of the second order, and one of the third.
+/// The centroid, whose area is negative (seen from afar, the others make up for it), and a point on
+/// the way from it to each corner. By symmetry there is but one moment of the second order, and one
+/// of the third.
 fn on_triangle(polygon: &Polygon, n: u32) -> [Sample; STAND_INS] {
     let standard = Polygon::triangle([DVec3::ZERO, DVec3::X, DVec3::Y]);
     let weights = regular(&standard, n).into_iter();

@@ -2,6 +2,8 @@
 //!
 //! Measured by rays, independently of the factors: together they account for everything that a
 //! patch sees.
+//!
+//! Long because: what rays are drawn, traced and counted for is one loop.
 
 use crate::ahead::{Ahead, Met};
 use crate::element::free_pieces;

@@ -91,7 +91,8 @@ pub(crate) struct ClassSums {
     pairs: [u64; 2],
 }
 
-/// What a pair adds to the mean over rows is so many times smaller, at least, than what it adds to one.
+/// What a pair adds to the mean over rows is so many times smaller, at least, than what it adds to
+/// one.
 const FINER: f64 = 65536.0;
 
 impl ClassSums {

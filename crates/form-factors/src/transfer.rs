@@ -1,4 +1,6 @@
 //! The kernel of the form factor, summed over the points of a patch and of eight others.
+//!
+//! Long because: the near and the far form of one kernel, side by side.
 
 use crate::samples::{Lanes, Local, Point};
 use radiosity_simd::{Float, Kernel, LANES, Simd};
@@ -18,8 +20,8 @@ pub(crate) struct Transfer<'a> {
     pub(crate) sources: &'a mut Vec<Source>,
 }
 
-/// The same of several patches of a tile, by their lanes, with nothing in the way; `None` unless all are far
-/// from the others.
+/// The same of several patches of a tile, by their lanes, with nothing in the way; `None` unless
+/// all are far from the others.
 pub(crate) struct FarTransfer<'a> {
     pub(crate) from: (&'a Local, &'a Range<usize>),
     pub(crate) to: &'a Local,
@@ -34,10 +36,11 @@ pub(crate) struct Source {
     heights: Lanes<f32>,
 }
 
-/// Points nearer than this, in radii of the smaller patch, exchange nothing: where patches cross and
-/// points coincide, heights are rounding.
+/// Points nearer than this, in radii of the smaller patch, exchange nothing: where patches cross
+/// and points coincide, heights are rounding.
 const NEAREST: f32 = 1e-5;
-/// Points are farther apart than that if centroids are by more than so many radii of the larger patch.
+/// Points are farther apart than that if centroids are by more than so many radii of the larger
+/// patch.
 const TOUCHING: f32 = 2.1;
 /// Squared: as good as infinitely far, but two such squares still have a product.
 const INFINITE: f32 = 1e18;
@@ -153,8 +156,8 @@ fn load<S: Simd>(simd: S, [x, y, z]: &[Lanes<f32>; 3]) -> [S::F32; 3] {
 struct Distance {
     /// No point of one coincides with one of another.
     never_touch: bool,
-    /// Which are so far that few points can stand for all, and all of them lie on one side of the plane
-    /// of the other patch.
+    /// Which are so far that few points can stand for all, and all of them lie on one side of the
+    /// plane of the other patch.
     far: u8,
     /// What counts as no distance.
     nearest: Lanes<f32>,

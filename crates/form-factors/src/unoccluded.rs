@@ -1,9 +1,9 @@
 //! The exchange of two patches with nothing between them, however near, and whatever their sizes.
 //!
-//! The contour integral has closed forms for patches that touch, but loses the digits of what is small
-//! beside large. Where it would lose too many, polygons are halved, the larger one first: pieces with
-//! edges far from the smaller one are integrated by Lambert's formula, and the others become as small
-//! as that one is.
+//! The contour integral has closed forms for patches that touch, but loses the digits of what is
+//! small beside large. Where it would lose too many, polygons are halved, the larger one first:
+//! pieces with edges far from the smaller one are integrated by Lambert's formula, and the others
+//! become as small as that one is.
 
 use crate::accurate::Exchange;
 use crate::contour::{self, Integral};
@@ -17,8 +17,8 @@ use std::collections::BinaryHeap;
 const CONTOUR_ERROR: f64 = 1e-8;
 /// Rounding may cost this, as a form factor of the smaller patch.
 const ROUNDING: f64 = 1e-9;
-/// Polygons are halved until their longest edges are within this factor. What rounding costs then, as of
-/// needles, halving does not mend.
+/// Polygons are halved until their longest edges are within this factor. What rounding costs then,
+/// as of needles, halving does not mend.
 const SIMILAR: f64 = 8.0;
 /// So many pieces are integrated at most; what is left of rounding is told.
 const MOST_PIECES: usize = 4096;
@@ -36,8 +36,8 @@ struct Piece {
     integral: Integral,
 }
 
-/// `S_ij` of two patches, if nothing stood between them, over what either has in front of the other.
-/// `tolerance` is the height up to which a corner counts as in a plane.
+/// `S_ij` of two patches, if nothing stood between them, over what either has in front of the
+/// other. `tolerance` is the height up to which a corner counts as in a plane.
 pub(crate) fn exchange(i: &Element, j: &Element, tolerance: f64) -> Exchange {
     let parts = (
         j.clip(i.corners(), tolerance),
@@ -52,7 +52,8 @@ pub(crate) fn exchange(i: &Element, j: &Element, tolerance: f64) -> Exchange {
         tolerance,
     );
     let Integral { value, rounding } = in_pieces(whole, tolerance);
-    // Parts that barely see each other may come out below zero, by rounding. What is no number stays so.
+    // Parts that barely see each other may come out below zero, by rounding. What is no number
+    // stays so.
     let value = if value < 0.0 { 0.0 } else { value };
     Exchange::clear(value, CONTOUR_ERROR * value + rounding)
 }
@@ -157,8 +158,8 @@ impl Side {
         lengths.fold(0.0, f64::max)
     }
 
-    /// Of three corners, two triangles from the middle of the longest edge; of more, a triangle and the
-    /// rest.
+    /// Of three corners, two triangles from the middle of the longest edge; of more, a triangle and
+    /// the rest.
     fn halves(&self) -> [Side; 2] {
         let side = |corners: Corners| Side {
             corners,

@@ -4,9 +4,9 @@
 //! is halved again and again, into cells with a small lattice each. Shadows end at surfaces in the
 //! cube, and only cells that these pass through are halved further.
 //!
-//! Of cells of size `h`, some `h^-2` are at such a surface, and they take `n ~ h^-2` samples. If the
-//! integrand jumps there, each has an error of its volume, `h^3`; errors are independent, and add up to
-//! `h^-1 h^3 = h^2 ~ 1 / n`.
+//! Of cells of size `h`, some `h^-2` are at such a surface, and they take `n ~ h^-2` samples. If
+//! the integrand jumps there, each has an error of its volume, `h^3`; errors are independent, and
+//! add up to `h^-1 h^3 = h^2 ~ 1 / n`.
 
 use crate::cells::{Cell, IN_CELL, Measure, Region, Sums, Total};
 use crate::lattice::{Block, Lattice};
@@ -19,8 +19,8 @@ const FEWEST: usize = 4;
 const IN_ONE: usize = 512;
 /// So many of all cells.
 const MOST: usize = 1 << 19;
-/// One round of halving aims at this part of the error: what is worth to be halved further shows best
-/// in the halves.
+/// One round of halving aims at this part of the error: what is worth to be halved further shows
+/// best in the halves.
 const LESS_ERROR: f64 = 1.0 / 8.0;
 
 /// A share.

@@ -1,9 +1,12 @@
 //! Faces that lie on others: in one plane, facing the same way, over the same points.
 //!
 //! Of two such faces one counts where they overlap: that of the smaller area, as of a lamp on a
-//! ceiling, or, where areas are equal, the one that comes later. Areas are those of all of a surface that
-//! hangs together in the plane, so that it does not matter how finely the mesh of a ceiling is cut. (View3D has the same
-//! rule for subsurfaces, which its input has to name: G. Walton, NISTIR 6925, 2002.)
+//! ceiling, or, where areas are equal, the one that comes later. Areas are those of all of a
+//! surface that hangs together in the plane, so that it does not matter how finely the mesh of a
+//! ceiling is cut. (View3D has the same rule for subsurfaces, which its input has to name: G.
+//! Walton, NISTIR 6925, 2002.)
+//!
+//! Long because: the candidates, the test and the order of layers are one search.
 
 use crate::bounds::Aabb;
 use crate::mesh::{Face, FaceId, Patch};
@@ -88,8 +91,8 @@ impl Covers {
         &self.covered
     }
 
-    /// What of a patch no other face lies on, in polygons of three or four corners; `None` where that is
-    /// all of it.
+    /// What of a patch no other face lies on, in polygons of three or four corners; `None` where
+    /// that is all of it.
     pub fn free_part(&self, faces: &[Face], patch: &Patch) -> Option<Vec<Polygon>> {
         let covered = self.find(patch.face)?;
         let tolerance = self.tolerance.max(SLIVER * patch.polygon.longest_edge());
@@ -120,12 +123,13 @@ impl Covers {
     }
 }
 
-/// Planes that are nearly the same, in steps of [`STEPS`]: by normal, and by distance from the origin
-/// relative to the size of the scene.
+/// Planes that are nearly the same, in steps of [`STEPS`]: by normal, and by distance from the
+/// origin relative to the size of the scene.
 type PlaneCell = [i64; 4];
 
 const STEPS: f64 = 256.0;
-/// Planes up to so many steps apart may be the same: what is rounded in small faces of large scenes.
+/// Planes up to so many steps apart may be the same: what is rounded in small faces of large
+/// scenes.
 const MARGIN: f64 = 0.01;
 
 /// Pairs of faces in one plane, facing the same way, that overlap.
@@ -158,8 +162,8 @@ fn overlapping(faces: &[Face], boxes: &[Aabb], bounds: &Aabb, tolerance: f64) ->
     pairs
 }
 
-/// The axis along which boxes reach over the fewest others: where they are shortest, relative to all
-/// together.
+/// The axis along which boxes reach over the fewest others: where they are shortest, relative to
+/// all together.
 fn sweep_axis(cell: &[usize], boxes: &[Aabb]) -> usize {
     let around = cell.iter().map(|&face| boxes[face]);
     let extent = around.clone().fold(Aabb::EMPTY, Aabb::union).extent();
@@ -233,8 +237,8 @@ fn are_apart(a: &Polygon, b: &Polygon, normal: DVec3, tolerance: f64) -> bool {
     parts(a, b) || parts(b, a)
 }
 
-/// Of each face, the area of all of its surface that it hangs together with in its plane, by edges that
-/// faces share, relative to the largest.
+/// Of each face, the area of all of its surface that it hangs together with in its plane, by edges
+/// that faces share, relative to the largest.
 fn areas_together(faces: &[Face], tolerance: f64) -> Vec<f32> {
     let mut left_of: HashMap<_, Vec<usize>> = HashMap::new();
     let mut together = Sets((0..faces.len()).collect());
@@ -266,7 +270,8 @@ fn continues(face: &Face, other: &Face, tolerance: f64) -> bool {
         && other.polygon.corners().iter().all(is_near)
 }
 
-/// Sets of numbers that are joined step by step: each has a number before it in its set, or is the first.
+/// Sets of numbers that are joined step by step: each has a number before it in its set, or is the
+/// first.
 struct Sets(Vec<usize>);
 
 impl Sets {

@@ -92,8 +92,8 @@ impl Film {
         (camera.ray(place.x, place.y, size.x / size.y), weight)
     }
 
-    /// The place of a sample of a part, in pixels from the pixel's top left corner, and how often it
-    /// counts: once on average.
+    /// The place of a sample of a part, in pixels from the pixel's top left corner, and how often
+    /// it counts: once on average.
     pub fn sample(&self, part: u32, uniform: DVec2) -> (DVec2, f64) {
         let (row, column) = (part / self.subpixels, part % self.subpixels);
         let corner = DVec2::new(f64::from(column), f64::from(row));
@@ -127,7 +127,8 @@ fn tent(uniform: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Support, and moments of second order, by the midpoint rule over a fine grid of uniform points.
+    /// Support, and moments of second order, by the midpoint rule over a fine grid of uniform
+    /// points.
     fn moments(filter: PixelFilter) -> (DVec2, DVec2, DVec2) {
         let film = Film {
             width: 1,

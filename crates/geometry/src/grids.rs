@@ -7,7 +7,8 @@ use crate::polygon_mesh::split_quad;
 use crate::shape::Shape;
 use crate::subdivide::{Divisions, MAX_PATCHES, MeshError, Surface};
 
-/// A polygon, or its halves, with their grids: a quad of a mesh is halved where its own grid would have too many cells.
+/// A polygon, or its halves, with their grids: a quad of a mesh is halved where its own grid would
+/// have too many cells.
 pub(crate) fn with_grids(
     id: SurfaceId,
     surface: &Surface,
@@ -29,8 +30,9 @@ pub(crate) fn with_grids(
     }
 }
 
-/// Whether cells of a quad are more than four times what cells of area `e^2` or, where it is thinner, length `e` would
-/// be, `e` being the length of cells along the longest edge: it is slanted, or nearly a narrow triangle.
+/// Whether cells of a quad are more than four times what cells of area `e^2` or, where it is
+/// thinner, length `e` would be, `e` being the length of cells along the longest edge: it is
+/// slanted, or nearly a narrow triangle.
 fn is_wasteful(quad: &Polygon, [a, b]: [u32; 2]) -> bool {
     let cells = f64::from(a) * f64::from(b);
     let size = quad.longest_edge() / f64::from(a.max(b));
@@ -91,8 +93,9 @@ fn grid_by_length(polygon: &Polygon, max_edge: f64, powers_of_two: bool) -> Grid
     }
 }
 
-/// Whether `n^2` patches of a triangle are more than four times what patches of area `e^2` or, where it is thinner,
-/// length `e` would be, `e` being an `n`th of the longest edge. Up to rounding: halves of squares are not narrow.
+/// Whether `n^2` patches of a triangle are more than four times what patches of area `e^2` or,
+/// where it is thinner, length `e` would be, `e` being an `n`th of the longest edge. Up to
+/// rounding: halves of squares are not narrow.
 fn is_narrow(polygon: &Polygon, n: u32) -> bool {
     let square = polygon.longest_edge() * polygon.longest_edge();
     (5..=MAX_PATCHES as u32).contains(&n) && 4.0 * polygon.area() < (1.0 - 1e-9) * square

@@ -104,8 +104,9 @@ pub struct Patch {
     /// The surface it is part of.
     pub surface: SurfaceId,
     /// On quads, the cell along edge a and edge b. On triangles, the row parallel to the edge
-    /// from corner 0 to corner 2 and the position in it (even: same orientation as the face). On narrow triangles,
-    /// the row, counted from the longest edge, and the position in it, along that edge.
+    /// from corner 0 to corner 2 and the position in it (even: same orientation as the face). On
+    /// narrow triangles, the row, counted from the longest edge, and the position in it, along that
+    /// edge.
     pub cell: [u32; 2],
 }
 

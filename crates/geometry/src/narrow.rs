@@ -1,13 +1,17 @@
-//! The cut of narrow triangles: rows along the longest edge, of quads between two parts near the other edges.
+//! The cut of narrow triangles: rows along the longest edge, of quads between two parts near the
+//! other edges.
 //!
-//! The longest edge, `AB`, lies below, the opposite corner `C` above. All rows are equally high, and the lines between
-//! them are cut into pieces as long as those of `AB`. So rows differ only in how many parallelograms are in their
-//! middle. On their left is a triangle between the row's base and edge `CA`, on their right one between the base and `BC`
-//! ([`Needle`]): the same two in each row.
+//! The longest edge, `AB`, lies below, the opposite corner `C` above. All rows are equally high,
+//! and the lines between them are cut into pieces as long as those of `AB`. So rows differ only in
+//! how many parallelograms are in their middle. On their left is a triangle between the row's base
+//! and edge `CA`, on their right one between the base and `BC` ([`Needle`]): the same two in each
+//! row.
 //!
-//! Where counts are powers of two, an edge is cut as its own length asks for, so that neighbours have the same
-//! vertices. In few triangles (one in some hundreds of random ones) a rung would be too long. They are cut finer: vertices
-//! of neighbours are among theirs.
+//! Where counts are powers of two, an edge is cut as its own length asks for, so that neighbours
+//! have the same vertices. In few triangles (one in some hundreds of random ones) a rung would be
+//! too long. They are cut finer: vertices of neighbours are among theirs.
+//!
+//! Long because: the cut, and the way back from a point to its cell, are one scheme.
 
 mod needle;
 
@@ -17,13 +21,13 @@ use glam::{DVec2, DVec3};
 use needle::Needle;
 use serde::{Deserialize, Serialize};
 
-/// The height of an equilateral triangle of side 1: that of rows, if pieces of edges are as long as 1, unless another edge
-/// has too few. So, where a row rises along more than one piece of an edge, it goes along the base by half a piece or
-/// more.
+/// The height of an equilateral triangle of side 1: that of rows, if pieces of edges are as long as
+/// 1, unless another edge has too few. So, where a row rises along more than one piece of an edge,
+/// it goes along the base by half a piece or more.
 const ROW_HEIGHT: f64 = 0.866_025_403_784_438_6;
 
-/// If pieces of edges are as long as this, `2 / sqrt(5)`, no rung is longer than 1: it rises by one piece at most, and leans
-/// by half of one.
+/// If pieces of edges are as long as this, `2 / sqrt(5)`, no rung is longer than 1: it rises by one
+/// piece at most, and leans by half of one.
 const SHORT_PIECE: f64 = 0.894_427_190_999_915_9;
 
 /// How a narrow triangle is cut.
@@ -41,7 +45,8 @@ pub struct NarrowGrid {
 }
 
 impl NarrowGrid {
-    /// The cut of a triangle. `count` says how many pieces of at most the second length the first one takes.
+    /// The cut of a triangle. `count` says how many pieces of at most the second length the first
+    /// one takes.
     pub(crate) fn new(
         polygon: &Polygon,
         max_edge: f64,
@@ -163,7 +168,8 @@ impl NarrowGrid {
         (self.rows - row) * self.step
     }
 
-    /// The vertex at the left end of so many pieces of the line below a row, and so on to the right.
+    /// The vertex at the left end of so many pieces of the line below a row, and so on to the
+    /// right.
     fn on_line(self, row: u32, k: u32) -> DVec3 {
         let all = f64::from(self.line(0));
         let weights = [self.line(row) - k, k, row * self.step];
@@ -218,8 +224,8 @@ impl NarrowGrid {
         [row, position]
     }
 
-    /// The edges of cells along an edge of the face, from its beginning to its end: the cell, and the numbers of
-    /// the edge's ends among its corners.
+    /// The edges of cells along an edge of the face, from its beginning to its end: the cell, and
+    /// the numbers of the edge's ends among its corners.
     pub fn along_edge(self, edge: usize) -> Vec<(usize, [usize; 2])> {
         let from = (edge + 3 - self.longest as usize) % 3;
         let opposite = (from + 2) % 3;

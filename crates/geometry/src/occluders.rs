@@ -128,8 +128,8 @@ impl Occluders {
     ///
     /// Where a front and a back lie in one place, in the same plane up to the rounding of
     /// coordinates, the ray meets the front: walls made of two faces show their fronts to either
-    /// side. Of two fronts the ray meets the one that [lies on](crate::Covers) the other. Else, of two hits
-    /// at the same parameter the face that comes first wins.
+    /// side. Of two fronts the ray meets the one that [lies on](crate::Covers) the other. Else, of
+    /// two hits at the same parameter the face that comes first wins.
     pub fn closest_hit(
         &self,
         ray: &Ray,

@@ -39,7 +39,8 @@ pub enum Backs {
     /// They are black.
     #[default]
     Black,
-    /// What lies behind them: rooms can be looked into from outside. For light they are as they are.
+    /// What lies behind them: rooms can be looked into from outside. For light they are as they
+    /// are.
     Transparent,
 }
 
@@ -124,8 +125,8 @@ impl Screen {
 
     /// Which faces the samples of the pixel in column `x` and row `y` show, into `seen`: the
     /// nearest of those that are not too near. Of a front and a back in one plane they show the
-    /// front, of two fronts the one that lies on the other, else of two at the same depth the first. Returns whether other places in the pixel may show
-    /// other faces.
+    /// front, of two fronts the one that lies on the other, else of two at the same depth the
+    /// first. Returns whether other places in the pixel may show other faces.
     #[inline(always)]
     pub fn look<S: Simd>(
         &self,

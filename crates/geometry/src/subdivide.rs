@@ -1,4 +1,6 @@
 //! Stage 1: surfaces into patches.
+//!
+//! Long because: the stage's input, its errors and the cells of each shape.
 
 use crate::check::ShapeError;
 use crate::covers::Covers;
@@ -19,8 +21,9 @@ pub enum Divisions {
         b: u32,
     },
     /// As few cells as keep every patch edge at most this long, in scene units. Faces of meshes
-    /// take the next power of two, so that neighbours of different size fit together. Triangles that are
-    /// narrow are cut along each edge as its length asks for, the others alike along all edges.
+    /// take the next power of two, so that neighbours of different size fit together. Triangles
+    /// that are narrow are cut along each edge as its length asks for, the others alike along all
+    /// edges.
     MaxEdge(f64),
     /// No cells at all: the surface stands in the way, and neither emits nor receives.
     Uncut,
@@ -82,9 +85,10 @@ pub enum MeshError {
     },
     /// A patch is so small beside the coordinates that these have no digits left for it.
     #[error(
-        "surface {} has a patch of size {size:.1e} where coordinates are up to {largest:.1e}: at least \
-         {allowed:.1e} is needed; move the scene to the origin, or leave out what is far away", surface.0,
-        allowed = LEAST_SIZE * largest
+        "surface {} has a patch of size {size:.1e} where coordinates are up to {largest:.1e}: \
+         at least {allowed:.1e} is needed; move the scene to the origin, or leave out what is \
+         far away",
+        surface.0, allowed = LEAST_SIZE * largest
     )]
     NoDigits {
         /// The surface.

@@ -1,7 +1,8 @@
 //! Eight segments on one way through the tree.
 //!
-//! A node costs as many tests as it has boxes, of all segments, or as there are segments, of all boxes,
-//! whichever is less: neighbours share the upper nodes, and below segments go their own ways.
+//! A node costs as many tests as it has boxes, of all segments, or as there are segments, of all
+//! boxes, whichever is less: neighbours share the upper nodes, and below segments go their own
+//! ways.
 
 use crate::bvh::{Bvh, Child, Leaf, STACK, bits};
 use crate::slabs::{Boxes, Frame, LARGEST, RELATIVE_ERROR};
@@ -29,8 +30,8 @@ impl Bvh {
     /// Shows a visitor every item whose box some segments enter, as long as they go on; returns
     /// those that went on to the end.
     ///
-    /// Leaves, and then items, are met several at a time, so that memory is asked for the next while
-    /// one is looked at.
+    /// Leaves, and then items, are met several at a time, so that memory is asked for the next
+    /// while one is looked at.
     #[inline(always)]
     pub(crate) fn together<S: Simd>(
         &self,
@@ -139,7 +140,8 @@ impl Frame {
 }
 
 impl Boxes {
-    /// Of each box, which of some segments enter it, one bit each: the first box in the lowest byte.
+    /// Of each box, which of some segments enter it, one bit each: the first box in the lowest
+    /// byte.
     #[inline(always)]
     pub(crate) fn entered<S: Simd>(&self, simd: S, segments: &SlabSegments, some: u8) -> u64 {
         let mut entered = 0;

@@ -5,8 +5,9 @@ use crate::percentile::{is_lit, percentile};
 use crate::rgb8_image::Rgb8Image;
 use colorous::VIRIDIS;
 
-/// Which numbers colours stand for: from dark blue to yellow, in steps that look alike, also to those
-/// who do not tell red from green (Smith & van der Walt's "viridis", 2015). Nothing at all is black.
+/// Which numbers colours stand for: from dark blue to yellow, in steps that look alike, also to
+/// those who do not tell red from green (Smith & van der Walt's "viridis", 2015). Nothing at all is
+/// black.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ColorScale {
     /// The number that has the brightest colour; larger ones have it too.

@@ -1,4 +1,5 @@
-//! The legend beside false colours: the quantity, its unit, and which numbers the colours stand for.
+//! The legend beside false colours: the quantity, its unit, and which numbers the colours stand
+//! for.
 
 use crate::false_color::ColorScale;
 use crate::rgb8_image::Rgb8Image;

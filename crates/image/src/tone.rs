@@ -111,8 +111,8 @@ impl ToneMap {
         }
     }
 
-    /// Turns each channel, as bright as a screen shows it, into a level; with the noise that dithers
-    /// it, uniform in [0, 1), if it is dithered.
+    /// Turns each channel, as bright as a screen shows it, into a level; with the noise that
+    /// dithers it, uniform in [0, 1), if it is dithered.
     fn for_each_row<T: Send>(
         &self,
         image: &Image,
@@ -173,7 +173,8 @@ mod tests {
         assert_eq!(exposure.factor(&image(vec![[0.0; 3]])), 1.0);
     }
 
-    /// Dithered levels are right on average: 4,000 of them, with a standard deviation of half a level.
+    /// Dithered levels are right on average: 4,000 of them, with a standard deviation of half a
+    /// level.
     #[test]
     fn dithering_keeps_the_mean() {
         let brightness = 0.31f32;

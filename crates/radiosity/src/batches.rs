@@ -93,7 +93,8 @@ impl<'a> Batches<'a> {
         self.finished.tally
     }
 
-    /// Estimates rows until time is over, those that are begun first, and gives those that are finished.
+    /// Estimates rows until time is over, those that are begun first, and gives those that are
+    /// finished.
     fn estimate(&mut self) -> Vec<Vec<f32>> {
         let Finished {
             rows,

@@ -32,7 +32,8 @@ pub fn light_lines(pipeline: &Pipeline<'_>, energy: &Energy) -> Vec<String> {
             String::new()
         } else {
             format!(
-                "; lamps shine on those of {}: reverse the order of their corners, or that of the lamps'",
+                "; lamps shine on those of {}: reverse the order of their corners, or that of the \
+                 lamps'",
                 named(lit)
             )
         };
@@ -84,7 +85,8 @@ fn is_lit(scene: &Scene, face: &Face) -> bool {
     scene.dimmed_emission(material) != [0.0; 3] && !face.is_bare()
 }
 
-/// Whether other faces lie on all of a face, and so take its light. Only the accurate mode heeds it.
+/// Whether other faces lie on all of a face, and so take its light. Only the accurate mode heeds
+/// it.
 fn is_covered(scene: &Scene, mesh: &Mesh, face: &Face) -> bool {
     let is_free = |patch: &Patch| match mesh.covers.free_part(&mesh.faces, patch) {
         Some(pieces) => !pieces.is_empty(),

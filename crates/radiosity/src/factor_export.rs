@@ -2,6 +2,8 @@
 //!
 //! The matrix has entry `F[i, j]` from row `i` to column `j`: the share of the power leaving `i`
 //! that arrives at `j`. Rows are patches in input order, or surfaces, or groups of them.
+//!
+//! Long because: one table, and every form in which it is written.
 
 use crate::error::Error;
 use crate::export::{faces_in_input_order, input_order};

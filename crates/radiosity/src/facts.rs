@@ -82,9 +82,9 @@ impl FactorFacts {
         }
     }
 
-    /// Whether they fit together, and to so many values, as facts of a program that is right do: whoever
-    /// wrote a file, reading it must not fail later. Factors that are no numbers make sums of rows that
-    /// are none, so the matrix itself need not be looked through.
+    /// Whether they fit together, and to so many values, as facts of a program that is right do:
+    /// whoever wrote a file, reading it must not fail later. Factors that are no numbers make sums
+    /// of rows that are none, so the matrix itself need not be looked through.
     pub(crate) fn are_sound(&self, values: usize) -> bool {
         let patches = self.rows.len();
         let counts = self

@@ -116,7 +116,8 @@ impl Job<'_> {
         if done > 0 {
             let percent = 100.0 * done as f64 / needs.pairs as f64;
             self.observer.note(&format!(
-                "an interrupted run has left {percent:.0} % of the form factors: only the others are computed"
+                "an interrupted run has left {percent:.0} % of the form factors: only the others \
+                 are computed"
             ));
         }
         let told = needs.with_closure(self.closure);

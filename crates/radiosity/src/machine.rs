@@ -10,8 +10,8 @@ pub(crate) fn usable_memory() -> Option<u64> {
     free_memory().map(|free| (free as f64 * USABLE_SHARE) as u64)
 }
 
-/// What the machine, or the container it runs in, or the limit of the process (`ulimit -v`) has left;
-/// unknown on rare systems.
+/// What the machine, or the container it runs in, or the limit of the process (`ulimit -v`) has
+/// left; unknown on rare systems.
 fn free_memory() -> Option<u64> {
     let mut system = sysinfo::System::new().ok()?;
     system.refresh_memory();

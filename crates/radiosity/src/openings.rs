@@ -1,5 +1,5 @@
-//! Why a scene that is called closed is not: faces that are turned the wrong way, and edges that bound a
-//! hole.
+//! Why a scene that is called closed is not: faces that are turned the wrong way, and edges that
+//! bound a hole.
 
 mod edges;
 mod gaps;
@@ -14,8 +14,8 @@ use radiosity_scene::Scene;
 use std::collections::BTreeSet;
 use turned::Turned;
 
-/// In a closed scene patches see fronts alone, and what is hidden of them sees backs, as far as that is
-/// known. A few rays may meet an edge.
+/// In a closed scene patches see fronts alone, and what is hidden of them sees backs, as far as
+/// that is known. A few rays may meet an edge.
 const OPEN: f64 = 0.001;
 const TURNED: f64 = 0.02;
 /// From so many faces rays look around, evenly spread.
@@ -88,18 +88,20 @@ pub fn warnings(scene: &Scene, mesh: &Mesh) -> Vec<String> {
     let faults = [
         told(&fewer).map(|names| {
             format!(
-                "{names} face the other way than their neighbours: reverse the order of their corners"
+                "{names} face the other way than their neighbours: reverse the order of their \
+                 corners"
             )
         }),
         told(&either).map(|names| {
             format!(
-                "{names} face the other way than their neighbours: reverse the order of the corners of \
-                 those that face outwards"
+                "{names} face the other way than their neighbours: reverse the order of the \
+                 corners of those that face outwards"
             )
         }),
         told(&open).map(|names| {
             format!(
-                "edges of {names} have no neighbour: a surface is missing there, or corners do not meet"
+                "edges of {names} have no neighbour: a surface is missing there, or corners do \
+                 not meet"
             )
         }),
     ];

@@ -55,8 +55,8 @@ pub struct FormFactorsMade {
 /// What patches shine with, each list indexed by patch.
 #[derive(Clone, Debug)]
 pub struct PatchLight {
-    /// Radiosities of what is visible of patches, W/m^2 per channel, with the lights as bright as the
-    /// scene has them.
+    /// Radiosities of what is visible of patches, W/m^2 per channel, with the lights as bright as
+    /// the scene has them.
     pub radiosity: Vec<[f32; 3]>,
     /// The part of them that patches reflect of what comes straight from emitters.
     pub direct: Vec<[f32; 3]>,
@@ -153,14 +153,16 @@ impl<'a> Pipeline<'a> {
         }
     }
 
-    /// Refuses light that single precision does not hold, such as that of a lamp brightened beyond it.
+    /// Refuses light that single precision does not hold, such as that of a lamp brightened beyond
+    /// it.
     fn finite(&self, light: PatchLight) -> Result<PatchLight, Error> {
         solver::check_radiosities([&light.radiosity[..]])
             .map_err(|error| self.of_solver(&error))?;
         Ok(light)
     }
 
-    /// Refuses form factors that are no numbers. A file of such rows is not taken from the cache either.
+    /// Refuses form factors that are no numbers. A file of such rows is not taken from the cache
+    /// either.
     fn check_finite(&self, FormFactors { rows, areas, .. }: &FormFactors) -> Result<(), Error> {
         let mut rows = rows.iter().zip(areas);
         let bad = rows.position(|(row, area)| !is_finite(row, *area));

@@ -8,8 +8,9 @@ use std::time::Instant;
 
 /// Below this many pairs of points a prediction costs more than it is worth.
 const PREDICTED_FROM: u64 = 20_000_000;
-/// A rehearsal goes on until it has taken so many seconds, or done one in so many of the run's pairs of points:
-/// fewer may all be of patches that see nothing of each other, or more of each other than most.
+/// A rehearsal goes on until it has taken so many seconds, or done one in so many of the run's
+/// pairs of points: fewer may all be of patches that see nothing of each other, or more of each
+/// other than most.
 const LONG_ENOUGH: f64 = 0.1;
 const REHEARSED_ONE_IN: u64 = 40;
 /// With more points along an edge, or more pairs of points, a rehearsal takes these.

@@ -38,8 +38,8 @@ pub struct RowSummary {
     pub closure: Option<ClosureFacts>,
 }
 
-/// Rows of a surface of which fronts, backs and background do not sum to 1, by more than the errors of
-/// all explain.
+/// Rows of a surface of which fronts, backs and background do not sum to 1, by more than the errors
+/// of all explain.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Unbalanced {
     /// The surface, by its number in the scene.
@@ -52,8 +52,8 @@ pub struct Unbalanced {
 
 /// Row sums above this are worth a warning.
 const EXCESSIVE: f64 = 1.001;
-/// What is off by more than so many errors is wrong. (Of some 9,000 rows of the scenes that are shipped
-/// none is.)
+/// What is off by more than so many errors is wrong. (Of some 9,000 rows of the scenes that are
+/// shipped none is.)
 const ERRORS: f64 = 5.0;
 /// What single precision leaves of row sums.
 const ROUNDING: f64 = 1e-6;

@@ -3,8 +3,9 @@
 //!
 //! At the edge between two cells, value and slope are those of the polynomial that has the means of
 //! the four cells around it, of the nearest three at the border (Colella & Woodward, "The Piecewise
-//! Parabolic Method (PPM) for Gas-Dynamical Simulations", 1984, eq. 1.6-1.9). Between edges it is the
-//! cubic with these values and slopes, so a cubic is reproduced inside. Two axes, one after the other.
+//! Parabolic Method (PPM) for Gas-Dynamical Simulations", 1984, eq. 1.6-1.9). Between edges it is
+//! the cubic with these values and slopes, so a cubic is reproduced inside. Two axes, one after the
+//! other.
 
 use crate::{Rgb, add_scaled};
 
@@ -64,8 +65,8 @@ pub(crate) fn pieces((a, b): (u32, u32), value: impl Fn(u32, u32) -> Rgb) -> Vec
     pieces
 }
 
-/// A corner's value, but no less than half of the least and no more than twice the greatest of the cells
-/// around it: beside shadows that are smaller than cells, polynomials go astray.
+/// A corner's value, but no less than half of the least and no more than twice the greatest of the
+/// cells around it: beside shadows that are smaller than cells, polynomials go astray.
 fn limited(corner: Rgb, around: impl Iterator<Item = Rgb>) -> Rgb {
     let (mut low, mut high) = ([f32::INFINITY; 3], [0.0f32; 3]);
     for value in around {
@@ -125,7 +126,8 @@ const HERMITE: [[f32; 4]; 4] = [
     [0.0, 0.0, -1.0, 1.0],
 ];
 
-/// The piece with values and slopes `corner(k, l)`, in either direction in the order of [`HERMITE`].
+/// The piece with values and slopes `corner(k, l)`, in either direction in the order of
+/// [`HERMITE`].
 fn piece(corner: impl Fn(usize, usize) -> Rgb) -> Piece {
     let mut piece = [[0.0; 3]; 16];
     for (k, along) in HERMITE.iter().enumerate() {

@@ -4,8 +4,10 @@
 //! An emitter is a convex polygon of even exitance `M`. A point with the form factor `F` to it has
 //! the irradiance `M F` (Cohen & Wallace 1993, section 4.4). What blocks is convex too, so its
 //! shadow on the emitter is what lies in a cone; cut out of the emitter, it leaves convex pieces.
-//! No sample is taken, and nothing is noisy: penumbrae are exact. Behind dozens of faces, as of a mesh,
-//! samples are cheaper, and are taken.
+//! No sample is taken, and nothing is noisy: penumbrae are exact. Behind dozens of faces, as of a
+//! mesh, samples are cheaper, and are taken.
+//!
+//! Long because: the closed form and the samples that stand in for it share one emitter's state.
 
 mod clear;
 mod pieces;
@@ -149,7 +151,8 @@ impl<'a> DirectLight<'a> {
         if is_away {
             return EmitterVisibility::Away;
         }
-        // Whether both lie on one side of a face's plane, or in it: no segment between them crosses it.
+        // Whether both lie on one side of a face's plane, or in it: no segment between them crosses
+        // it.
         let is_beside = |face: FaceId| {
             let face = &self.mesh.faces[face.index()];
             let over = |points| heights(points, face.normal, face.polygon.corners()[0]);
@@ -214,9 +217,9 @@ impl<'a> DirectLight<'a> {
 }
 
 impl DirectLight<'_> {
-    /// The share of points of an emitter that are seen, weighted as the light from them would be: the
-    /// factor without anything in the way times that is the factor (Heitz, Hill & McGuire, "Combining
-    /// Analytic Direct Illumination and Stochastic Shadows", 2018).
+    /// The share of points of an emitter that are seen, weighted as the light from them would be:
+    /// the factor without anything in the way times that is the factor (Heitz, Hill & McGuire,
+    /// "Combining Analytic Direct Illumination and Stochastic Shadows", 2018).
     fn seen_share(
         &self,
         emitter: &Emitter,

@@ -154,7 +154,8 @@ impl<'a> Gather<'a> {
     }
 }
 
-/// A point of the unit square as a point of the hemisphere, of density `cos / pi` (Malley's method).
+/// A point of the unit square as a point of the hemisphere, of density `cos / pi` (Malley's
+/// method).
 fn raised(at: DVec2) -> [f64; 3] {
     let (sin, cos) = (TAU * at.y).sin_cos();
     let radius = at.x.sqrt();

@@ -10,8 +10,8 @@ pub(crate) fn is_visible(fields: &Fields<'_>, patch: usize) -> bool {
     fields.visible[patch] > 0.0
 }
 
-/// The values of a face's patches, where hidden ones continue their neighbours: for neighbours to be
-/// interpolated with. Nothing if none is hidden, or all are.
+/// The values of a face's patches, where hidden ones continue their neighbours: for neighbours to
+/// be interpolated with. Nothing if none is hidden, or all are.
 pub(crate) fn continued(fields: &Fields<'_>, face: &Face, values: &[Rgb]) -> Option<Vec<Rgb>> {
     let Grid::Quad { a, b } = face.grid else {
         return None;
@@ -26,8 +26,8 @@ pub(crate) fn continued(fields: &Fields<'_>, face: &Face, values: &[Rgb]) -> Opt
     Some(continued)
 }
 
-/// Gives cells of a grid that are not known the mean of their neighbours that are, ring by ring. One at
-/// least must be known.
+/// Gives cells of a grid that are not known the mean of their neighbours that are, ring by ring.
+/// One at least must be known.
 fn fill(values: &mut [Rgb], mut known: Vec<bool>, [a, b]: [usize; 2]) {
     while known.contains(&false) {
         let before = known.clone();

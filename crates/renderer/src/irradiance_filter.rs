@@ -1,9 +1,11 @@
-//! Gathered light at fragments, the parts of faces that pixels show, each smoothed over its neighbours.
+//! Gathered light at fragments, the parts of faces that pixels show, each smoothed over its
+//! neighbours.
 //!
-//! What few directions tell of a fragment is noisy, but light that is reflected more often changes slowly:
-//! over a distance as far as other surfaces are (Ward & Heckbert, "Irradiance Gradients", 1992).
-//! So a plane is fitted to the irradiances of fragments that are nearer than a part of that, by weighted
-//! least squares, and its value at the fragment is taken: no slope is lost, and no edge crossed.
+//! What few directions tell of a fragment is noisy, but light that is reflected more often changes
+//! slowly: over a distance as far as other surfaces are (Ward & Heckbert, "Irradiance Gradients",
+//! 1992). So a plane is fitted to the irradiances of fragments that are nearer than a part of that,
+//! by weighted least squares, and its value at the fragment is taken: no slope is lost, and no edge
+//! crossed.
 
 mod plane_fit;
 
@@ -174,7 +176,8 @@ mod tests {
             .collect()
     }
 
-    /// At borders, too, where all neighbours lie to one side; what the other square has does not count.
+    /// At borders, too, where all neighbours lie to one side; what the other square has does not
+    /// count.
     #[test]
     fn slopes_are_kept() {
         let mesh = squares();
@@ -193,8 +196,8 @@ mod tests {
         }
     }
 
-    /// Where something is near, neighbours are not asked; where nothing is, noise becomes a third of
-    /// itself at least, in the middle: some 40 neighbours count.
+    /// Where something is near, neighbours are not asked; where nothing is, noise becomes a third
+    /// of itself at least, in the middle: some 40 neighbours count.
     #[test]
     fn neighbours_count_as_far_as_surfaces_are_away() {
         let mesh = squares();

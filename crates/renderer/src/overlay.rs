@@ -1,7 +1,7 @@
 //! Lines over pictures: where patches end, and where numbers are equal.
 //!
-//! A line is as bright in a pixel as a tent around it says that is one pixel wide to either side, so
-//! lines are smooth, and equally wide everywhere.
+//! A line is as bright in a pixel as a tent around it says that is one pixel wide to either side,
+//! so lines are smooth, and equally wide everywhere.
 
 use radiosity_geometry::{Backs, Camera, DVec2, DVec3, Mesh, Offsets, Screen, Seen};
 use radiosity_image::{Rgb8Image, Values};
@@ -61,8 +61,8 @@ impl Outlines {
         }
     }
 
-    /// Draws the lines along which numbers have some values, light or dark as the picture is not. There are
-    /// none across edges of surfaces.
+    /// Draws the lines along which numbers have some values, light or dark as the picture is not.
+    /// There are none across edges of surfaces.
     pub fn draw_isolines(&self, picture: &mut Rgb8Image, values: &Values, levels: &[f64]) {
         let last = [values.width - 1, values.height - 1];
         let is_inner = |x: u32, y: u32| !self.edges[(y * self.width + x) as usize];

@@ -1,7 +1,7 @@
 //! Wide reconstruction filters, from an image of sub-pixels.
 //!
-//! Samples that are shared by neighbouring pixels leave no noise of their own, which random places in a
-//! filter with negative lobes do (Mitchell & Netravali 1988, section 3).
+//! Samples that are shared by neighbouring pixels leave no noise of their own, which random places
+//! in a filter with negative lobes do (Mitchell & Netravali 1988, section 3).
 
 use crate::{Rgb, add_scaled};
 use radiosity_geometry::PixelFilter;

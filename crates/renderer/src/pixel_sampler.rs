@@ -45,7 +45,8 @@ pub(crate) struct SampleNumbers {
 struct Sums<F> {
     /// By shading and channel, in each lane.
     radiosity: [[F; 3]; Shading::COUNT],
-    /// The least and the greatest sample by the last shading, in each lane: the sum of its channels.
+    /// The least and the greatest sample by the last shading, in each lane: the sum of its
+    /// channels.
     range: [F; 2],
 }
 
@@ -126,8 +127,8 @@ impl<'a> PixelSampler<'a> {
         }
     }
 
-    /// Samples a row of pixels, each as often as there are shadings. What is gathered at its fragments is
-    /// returned, and still to be added.
+    /// Samples a row of pixels, each as often as there are shadings. What is gathered at its
+    /// fragments is returned, and still to be added.
     pub(crate) fn sample_row(&self, y: u32, row: &mut [Rgb]) -> Vec<Fragment> {
         dispatch(PixelRow {
             sampler: self,
@@ -179,8 +180,8 @@ impl<'a> PixelSampler<'a> {
         sums.range[0] = zero.select(dark, sums.range[0]);
     }
 
-    /// Where on a face the samples of a pixel lie that show it; nowhere if it shows its back, or has
-    /// no patches.
+    /// Where on a face the samples of a pixel lie that show it; nowhere if it shows its back, or
+    /// has no patches.
     #[inline(always)]
     fn surface_points<S: Simd>(
         &self,

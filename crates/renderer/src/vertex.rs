@@ -8,10 +8,13 @@
 //! (Thuermer & Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998). That blurs:
 //! the mean of a patch's vertices is no longer the patch's value. What is missing is averaged in
 //! the same way and added back, [`SHARPENING`] times (Van Cittert's iteration, 1931), but never
-//! beyond the values of the patches that meet at the vertex. Patches that cannot be seen do not count.
+//! beyond the values of the patches that meet at the vertex. Patches that cannot be seen do not
+//! count.
 //!
 //! Two patches belong together at a vertex if they have equal emission and reflectance and
 //! their normals differ by less than the crease angle, directly or by way of others there.
+//!
+//! Long because: how vertices get their values is one chain of steps.
 
 use crate::fields::Fields;
 use crate::hanging::{Hanging, hanging_vertices};
@@ -25,7 +28,8 @@ use std::ops::{Mul, Sub};
 /// Values at the corners of patches.
 pub(crate) struct VertexValues {
     values: Vec<Rgb>,
-    /// For each patch, the vertices at its three or four corners; a triangle leaves the last unused.
+    /// For each patch, the vertices at its three or four corners; a triangle leaves the last
+    /// unused.
     corners: Vec<[u32; 4]>,
 }
 

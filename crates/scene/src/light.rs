@@ -77,7 +77,8 @@ pub(crate) fn lights(
     Ok(lights)
 }
 
-/// Leaves out lights whose materials are on no surface: they cost a solution each, and show nothing.
+/// Leaves out lights whose materials are on no surface: they cost a solution each, and show
+/// nothing.
 pub(crate) fn keep_used(
     lights: Vec<Light>,
     materials: &mut [Material],

@@ -1,4 +1,6 @@
 //! `[[surfaces]]`.
+//!
+//! Long because: one table of the file, and the checks of all its keys.
 
 use crate::input::MeshFiles;
 use crate::material::Material;

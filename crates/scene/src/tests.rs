@@ -1,4 +1,6 @@
 //! What scenes mean when they are right, and what is said when they are wrong.
+//!
+//! Long because: one table of all mistakes.
 
 mod files;
 mod meshes;
@@ -170,7 +172,8 @@ fn mistakes_are_explained() {
         (
             "name = \"wing\"",
             "name = \"wing\"\ngroup = \"wings\"\nmaterial = \"lamp\"\n\
-             triangle = [[0, 0, 9], [1, 0, 9], [0, 1, 9]]\n[[surfaces]]\nname = \"c\"\ngroup = \"wing\"",
+             triangle = [[0, 0, 9], [1, 0, 9], [0, 1, 9]]\n\
+             [[surfaces]]\nname = \"c\"\ngroup = \"wing\"",
         ),
         ("emission = 12", "emission = 1e-170"),
         ("reflectance = 0.75", "reflectance = 0.75\nlight = \"lamp\""),

@@ -154,8 +154,8 @@ fn check_lies_on(
     }
     let [a, b, c] = [0, 1, 2].map(|k| entry.corners[k]);
     if (b - a).cross(c - b).dot(normal) < 0.0 {
-        let help = "what lies on a surface faces as it does; masks and null surfaces, which face the \
-                    other way, are not read";
+        let help = "what lies on a surface faces as it does; masks and null surfaces, which face \
+                    the other way, are not read";
         return complain("faces the other way than", help);
     }
     let is_inside = |corner: &DVec3| {

@@ -1,4 +1,6 @@
 //! What the instruction sets have in common: lanes in one register or several, and the way in.
+//!
+//! Long because: two macros, which stand for the code of all instruction sets.
 
 /// Defines a type of eight lanes held in `$count` registers, and its operations, by the names
 /// of the intrinsics.

@@ -23,8 +23,10 @@
 //! nothing. When all channels rest, the true residual is computed, of the values in single
 //! precision; where it is not small enough yet, everything begins anew from there.
 //!
-//! The numbers `alpha` and `beta` tell the smallest eigenvalue of `gain M` ([`crate::channel`]), and
-//! that tells the error.
+//! The numbers `alpha` and `beta` tell the smallest eigenvalue of `gain M` ([`crate::channel`]),
+//! and that tells the error.
+//!
+//! Long because: the algorithm, its stopping rule and its check are read together.
 
 use crate::Rgb;
 use crate::channel::Channel;

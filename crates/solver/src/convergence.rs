@@ -4,8 +4,8 @@ use crate::diagnosis::is_falling;
 use crate::{Energy, Method};
 use serde::{Deserialize, Serialize};
 
-/// The course of an iteration. Norms are area-weighted L2 norms over patches; of the channels of all
-/// lights, the worst counts.
+/// The course of an iteration. Norms are area-weighted L2 norms over patches; of the channels of
+/// all lights, the worst counts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Convergence {
     /// How it was solved.
@@ -30,8 +30,8 @@ pub struct Convergence {
 }
 
 impl Convergence {
-    /// Whether the residual has become clearly less over the second half of the passes, so that more of
-    /// them would help.
+    /// Whether the residual has become clearly less over the second half of the passes, so that
+    /// more of them would help.
     pub fn is_falling(&self) -> bool {
         is_falling(&self.residuals)
     }

@@ -20,8 +20,8 @@ pub enum SolveError {
     },
     /// Far more is left of the equations than what shines.
     #[error(
-        "this is no solution: its residual is {residual:.1e} times the emission; light dies away too \
-         slowly, or not at all"
+        "this is no solution: its residual is {residual:.1e} times the emission; light dies away \
+         too slowly, or not at all"
     )]
     Worthless {
         /// The relative residual.
@@ -46,8 +46,8 @@ pub enum SolveError {
 
 /// Sweeps over which the residual must grow before divergence is suspected.
 const SUSPICIOUS_GROWTH: usize = 4;
-/// With a relative residual above this, radiosities are no solution. (On their way to one, conjugate
-/// gradients may exceed 1.)
+/// With a relative residual above this, radiosities are no solution. (On their way to one,
+/// conjugate gradients may exceed 1.)
 pub(crate) const WORTHLESS: f64 = 10.0;
 /// With a residual above this, passes that change nothing any more have not ended at rounding.
 pub(crate) const FAR: f64 = 1e-3;
@@ -122,8 +122,8 @@ fn check_brightness(light: &[Rgb], c: usize) -> Result<(), SolveError> {
     }
 }
 
-/// Refuses radiosities that are no numbers, or larger than single precision holds: each item is a list by
-/// patch.
+/// Refuses radiosities that are no numbers, or larger than single precision holds: each item is a
+/// list by patch.
 pub fn check_radiosities<'a>(
     lights: impl IntoIterator<Item = &'a [[f32; 3]]>,
 ) -> Result<(), SolveError> {

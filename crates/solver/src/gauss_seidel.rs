@@ -166,8 +166,8 @@ fn reflectance_behind(rate: f64, factor: f64) -> f64 {
     rate.ln() * (rate + factor - 1.0) / (factor * (rate - 1.0))
 }
 
-/// What is missing where changes are lost by rounding: the residual that they were to mend, reflected
-/// on and on.
+/// What is missing where changes are lost by rounding: the residual that they were to mend,
+/// reflected on and on.
 fn lost(rate: f64, factor: f64) -> f64 {
     let reflectance = reflectance_behind(rate.max(factor - 1.0), factor);
     LOST / (factor * (1.0 - reflectance))

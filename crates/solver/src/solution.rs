@@ -15,8 +15,8 @@ pub struct Solution {
     pub report: Convergence,
 }
 
-/// The radiosities of all lights together, each dimmed by a factor per channel: their sum, no matter
-/// how the factors change. None without lights.
+/// The radiosities of all lights together, each dimmed by a factor per channel: their sum, no
+/// matter how the factors change. None without lights.
 ///
 /// # Panics
 ///

@@ -64,7 +64,8 @@ pub(crate) trait Iteration {
     fn finish(self: Box<Self>) -> (Values<f32>, Values<f64>);
 }
 
-/// Solves the system for all lights, from `B = E` on. `progress` is told the residual after each pass.
+/// Solves the system for all lights, from `B = E` on. `progress` is told the residual after each
+/// pass.
 ///
 /// # Errors
 ///

@@ -9,8 +9,8 @@ use radiosity_matrix::SymmetricMatrix;
 pub struct System<'a> {
     /// `S_ij = A_i F_ij`, in units of the total area.
     pub exchange: &'a SymmetricMatrix,
-    /// The area of each patch that nothing lies on, in square scene units; 0 for a patch that is covered,
-    /// which exchanges nothing.
+    /// The area of each patch that nothing lies on, in square scene units; 0 for a patch that is
+    /// covered, which exchanges nothing.
     pub areas: &'a [f64],
     /// The share of that area that exchanges light, in (0, 1]; the rest lies inside of something.
     /// Radiosities are those of this part.

@@ -1,8 +1,9 @@
 //! Pairs of patches whose form factors are known.
 //!
-//! Formulas: Ehlert & Smith, "View factors for perpendicular and parallel rectangular plates" (1993), of
-//! which C-11, C-13 and C-14 of Howell, "A Catalog of Radiation Heat Transfer Configuration Factors", are
-//! cases. For hinged squares (C-16) the catalog has an integral; its values are constants here.
+//! Formulas: Ehlert & Smith, "View factors for perpendicular and parallel rectangular plates"
+//! (1993), of which C-11, C-13 and C-14 of Howell, "A Catalog of Radiation Heat Transfer
+//! Configuration Factors", are cases. For hinged squares (C-16) the catalog has an integral; its
+//! values are constants here.
 
 use crate::shapes::{Facing, hinged, parallelogram, square};
 use radiosity_geometry::Shape;
@@ -90,8 +91,9 @@ fn perpendicular_rectangles_apart() -> ClosedForm {
     }
 }
 
-/// Degrees between unit squares that share an edge, and the factor: at 90 degrees by the formula below,
-/// at others by double-exponential quadrature of Lambert's formula, which gives all digits of that one.
+/// Degrees between unit squares that share an edge, and the factor: at 90 degrees by the formula
+/// below, at others by double-exponential quadrature of Lambert's formula, which gives all digits
+/// of that one.
 const HINGED: [(&str, f64, f64); 4] = [
     ("squares hinged at 30 degrees", 30.0, 0.619_028_323_091),
     ("squares hinged at 60 degrees", 60.0, 0.370_905_321_150),
@@ -109,7 +111,8 @@ fn hinged_squares((name, degrees, factor): (&'static str, f64, f64)) -> ClosedFo
     }
 }
 
-/// From a rectangle to a parallel one in front of it: where both reach along x and y, and their distance.
+/// From a rectangle to a parallel one in front of it: where both reach along x and y, and their
+/// distance.
 pub fn parallel_rectangles(from: [Range; 2], to: [Range; 2], distance: f64) -> f64 {
     let squared = distance * distance;
     let corner = |x: f64, y: f64| {
@@ -126,8 +129,8 @@ pub fn parallel_rectangles(from: [Range; 2], to: [Range; 2], distance: f64) -> f
     of_corners / area(from)
 }
 
-/// From a rectangle to one in a plane at a right angle to its own: how far both reach from the line in which
-/// these planes cross, and where both reach along it.
+/// From a rectangle to one in a plane at a right angle to its own: how far both reach from the line
+/// in which these planes cross, and where both reach along it.
 pub fn perpendicular_rectangles(from: Range, to: Range, along: [Range; 2]) -> f64 {
     let corner = |x: f64, z: f64, y: f64| {
         let (length, all) = (x.hypot(z), x * x + z * z + y * y);

@@ -1,7 +1,7 @@
 //! What tests of several crates build on: shapes and meshes, rooms, closed forms, statistics.
 //!
-//! For dev-dependencies alone: what cannot be made is a mistake of the test, and panics. Unit tests of
-//! `geometry` and `scene` cannot use it: theirs would be other types than the kit's.
+//! For dev-dependencies alone: what cannot be made is a mistake of the test, and panics. Unit tests
+//! of `geometry` and `scene` cannot use it: theirs would be other types than the kit's.
 
 pub mod box313;
 pub mod closed_forms;

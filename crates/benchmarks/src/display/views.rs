@@ -147,7 +147,8 @@ pub(super) fn exact_view(
     Ok((View { seconds, error }, figures))
 }
 
-/// The time that the path tracer takes to the same error: its square falls with the number of samples.
+/// The time that the path tracer takes to the same error: its square falls with the number of
+/// samples.
 pub(super) fn beside_the_tracer(
     scene: &Scene,
     truth: &Truth,

@@ -76,7 +76,8 @@ fn parts_of_a_row_sum_to_its_tolerance() {
     let most = parts.iter().copied().fold(0.0, f64::max);
     let some: Vec<f64> = parts.into_iter().filter(|part| *part > 0.0).collect();
     let mean = some.iter().sum::<f64>() / some.len() as f64;
-    // Weights are estimates. A pair has the smaller part of its two rows: not all of a row's is used.
+    // Weights are estimates. A pair has the smaller part of its two rows: not all of a row's is
+    // used.
     assert!(most < 1.1, "{most}");
     assert!(mean > 0.5, "{mean}");
 }

@@ -114,8 +114,8 @@ impl<F: Float<f64>> Light<F> {
         s / (s * s + self.squared).sqrt()
     }
 
-    /// A place on the bright part of the line, and the light there times the derivative of the place: drawn by
-    /// the sine of the angle from the foot, `s / sqrt(s^2 + distance^2)`.
+    /// A place on the bright part of the line, and the light there times the derivative of the
+    /// place: drawn by the sine of the angle from the foot, `s / sqrt(s^2 + distance^2)`.
     #[inline(always)]
     pub(super) fn at<S: Simd<F64 = F>>(&self, simd: S, way: F) -> (F, F) {
         let one = simd.splat_f64(1.0);

@@ -1,4 +1,5 @@
-//! The shadows of blockers on a line, seen from a point: intervals, of which what is in any counts once.
+//! The shadows of blockers on a line, seen from a point: intervals, of which what is in any counts
+//! once.
 
 use super::light::{Interval, Light, clip};
 use crate::blocker::{Blocker, PLANES, Plane};
@@ -54,7 +55,8 @@ impl Heights {
 }
 
 /// The part of a line, of a fan and of this length, that a screen hides from a point: where a few
-/// functions that are linear along the line are all positive. `None` if that is nothing in any lane.
+/// functions that are linear along the line are all positive. `None` if that is nothing in any
+/// lane.
 #[inline(always)]
 pub(super) fn shadow_of<S: Simd>(
     simd: S,

@@ -28,9 +28,9 @@ fn assert_near([found, error]: [f64; 2], exact: f64, bound: f64) {
     assert!(error <= bound, "{error}");
 }
 
-/// A plate of 1 above a ground of any size, looking down: what it does not see of the ground is beyond its
-/// edges, by `1 / (pi r^2)` all around (the leading term for a square of half-edge r: 4 / (pi r^2) times
-/// an integral that is bounded by 1).
+/// A plate of 1 above a ground of any size, looking down: what it does not see of the ground is
+/// beyond its edges, by `1 / (pi r^2)` all around (the leading term for a square of half-edge r: 4
+/// / (pi r^2) times an integral that is bounded by 1).
 #[test]
 fn plates_over_a_large_ground_see_nothing_else() {
     for half in [1e2, 1e4, 1e6, 1e8] {
@@ -56,9 +56,10 @@ fn plates_over_a_large_ground_see_nothing_else() {
     }
 }
 
-/// A square of 1 that stands in the middle of an edge of a large floor, at a right angle. Of an infinitely
-/// long strip of width w it sees `(1 + w - sqrt(1 + w^2)) / (2 * 1)` (crossed strings); here the strip ends at
-/// a distance of w to either side, beyond which it would see less than `2 / w`.
+/// A square of 1 that stands in the middle of an edge of a large floor, at a right angle. Of an
+/// infinitely long strip of width w it sees `(1 + w - sqrt(1 + w^2)) / (2 * 1)` (crossed strings);
+/// here the strip ends at a distance of w to either side, beyond which it would see less than
+/// `2 / w`.
 #[test]
 fn squares_at_the_edge_of_larger_ones_see_half_of_everything() {
     for size in [1e3, 1e5, 1e7] {

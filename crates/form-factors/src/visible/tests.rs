@@ -1,4 +1,6 @@
 //! Shares by lines, against rays and against what is known of them.
+//!
+//! Long because: samplers whose answers are known are written out.
 
 use super::*;
 use crate::blocker::Blocker;
@@ -235,8 +237,8 @@ fn what_is_missed_is_what_samples_leave() {
     assert_eq!(found.missed, 0.0);
 }
 
-/// The shadow of a square on one parallel to it has edges along those of the square. Lines along its
-/// diagonal know more of it than lines along its edges, of which some run along the shadow's.
+/// The shadow of a square on one parallel to it has edges along those of the square. Lines along
+/// its diagonal know more of it than lines along its edges, of which some run along the shadow's.
 #[test]
 fn lines_that_cross_shadows_know_more() {
     let p = DVec3::new;

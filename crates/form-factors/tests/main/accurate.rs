@@ -55,7 +55,8 @@ fn hard_pairs_know_their_errors() {
             let estimate = found.rows[0].error.unwrap();
             let error = (found.factor(0, 1) - mean).abs();
             println!(
-                "{tolerance}: {mean:.6} +- {noise:.1e}: off by {error:.1e}, estimated {estimate:.1e}"
+                "{tolerance}: {mean:.6} +- {noise:.1e}: off by {error:.1e}, \
+                 estimated {estimate:.1e}"
             );
             assert!(error < 6.0 * estimate + 3.0 * noise);
         }

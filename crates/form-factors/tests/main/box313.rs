@@ -1,5 +1,5 @@
-//! The accurate estimator against the exact factors of a closed box of 313 rectangles with a cuboid in
-//! it: see `tests/data/README.md`.
+//! The accurate estimator against the exact factors of a closed box of 313 rectangles with a cuboid
+//! in it: see `tests/data/README.md`.
 
 use crate::estimated::accurate;
 use radiosity_form_factors::FormFactors;
@@ -36,8 +36,8 @@ fn aggregated(found: &FormFactors, elements: usize, parts: usize) -> Found {
     }
 }
 
-/// Of a row of the reference: 3e-7 rms over all entries, nearly all of it in the tenth that is partly
-/// hidden, 31 in a row.
+/// Of a row of the reference: 3e-7 rms over all entries, nearly all of it in the tenth that is
+/// partly hidden, 31 in a row.
 const REFERENCE_ERROR: f64 = 2e-5;
 
 /// How good the factors of the box are.

@@ -9,9 +9,9 @@ use radiosity_test_kit::{hinged, mesh_of};
 /// Factors are stored in 24 bits, relative to the total area.
 const STORED: f64 = 1.0 / (1 << 24) as f64;
 
-/// Away from singularities the regular rule is a midpoint rule: its error falls with the square of the
-/// points' spacing, so extrapolating from a spacing and its half leaves an error of the fourth order. The
-/// constant is about 1 in units of the gap between patches; it is allowed to be 20.
+/// Away from singularities the regular rule is a midpoint rule: its error falls with the square of
+/// the points' spacing, so extrapolating from a spacing and its half leaves an error of the fourth
+/// order. The constant is about 1 in units of the gap between patches; it is allowed to be 20.
 #[test]
 fn the_regular_rule_converges_to_them() {
     for row in closed_forms_apart() {
@@ -32,9 +32,9 @@ fn the_regular_rule_converges_to_them() {
     }
 }
 
-/// At a common edge the kernel is homogeneous, of degree -2: points next to it are off by as much at any
-/// spacing, over a strip as wide as the spacing. So the error is of the first order, and extrapolation
-/// leaves one of the second. Its constant is 0.4 at most; it is allowed to be 2.
+/// At a common edge the kernel is homogeneous, of degree -2: points next to it are off by as much
+/// at any spacing, over a strip as wide as the spacing. So the error is of the first order, and
+/// extrapolation leaves one of the second. Its constant is 0.4 at most; it is allowed to be 2.
 #[test]
 fn the_regular_rule_overestimates_touching_patches() {
     for row in closed_forms_touching() {
@@ -61,8 +61,8 @@ fn the_course_is_off_as_documented() {
     assert!((factor / 0.200_043_776 - 1.218).abs() < 0.0005, "{factor}");
 }
 
-/// The mean over independent seeds is within four of its own standard errors (one in 16,000). Where patches
-/// touch, the kernel has no variance, and means no standard error.
+/// The mean over independent seeds is within four of its own standard errors (one in 16,000). Where
+/// patches touch, the kernel has no variance, and means no standard error.
 #[test]
 fn monte_carlo_is_unbiased() {
     for row in closed_forms_apart() {

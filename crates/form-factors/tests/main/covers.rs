@@ -12,7 +12,8 @@ fn turned(x: f64, y: f64, z: f64) -> DVec3 {
         + z * DVec3::new(0.0, 0.6, 0.8)
 }
 
-/// On the floor or the ceiling, to which it is turned; corners are counter-clockwise seen from above.
+/// On the floor or the ceiling, to which it is turned; corners are counter-clockwise seen from
+/// above.
 fn flat(z: f64, corners: &[[f64; 2]]) -> Shape {
     let mut corners: Vec<DVec3> = corners.iter().map(|&[x, y]| turned(x, y, z)).collect();
     if z > 0.0 {
@@ -93,7 +94,8 @@ fn a_flush_panel_takes_its_place_on_the_ceiling() {
     check_rows(&mesh, &found);
     let (areas, exchange) = by_surface(&mesh, &found);
     assert!((areas[6] - 1.4 * 1.7).abs() < 1e-9);
-    // The panel sees the floor as if there were no ceiling, and both together what the whole ceiling does.
+    // The panel sees the floor as if there were no ceiling, and both together what the whole
+    // ceiling does.
     let alone = cut([shapes[FLOOR].clone(), shapes[6].clone()], 5);
     let (_, of_panel) = by_surface(&alone, &accurate(&alone));
     let empty = cut(room(), 5);
@@ -128,8 +130,8 @@ fn of_equal_walls_one_counts() {
     }
 }
 
-/// Rugs of three and four corners that overlap each other, reach over the edges of patches, and lie behind
-/// a screen.
+/// Rugs of three and four corners that overlap each other, reach over the edges of patches, and lie
+/// behind a screen.
 #[test]
 fn what_lies_on_each_other_behind_a_screen_adds_up() {
     let mut shapes = room();

@@ -11,12 +11,12 @@ use std::f64::consts::{FRAC_PI_4, SQRT_2};
 
 /// How many radii of their points patches are apart where few begin to stand for all.
 const NEAR: f64 = 10.8;
-/// The largest difference is that of a plank from a square that it faces squarely, with three points
-/// along their edges: in the direction of an edge, the fourth moment of all points is larger by `2/729`
-/// edge^4 than that of few, and the fourth derivative of the kernel is `72 / d^4` times the kernel. In
-/// units of the radius `r` of the points, edges of `3 r` (one) and `3 / sqrt(2) r` (two) make
-/// `(r / d)^4` of the factor, which is `9/2 r^2 / (pi d^2)`. Higher derivatives take away a tenth. More
-/// points have larger radii.
+/// The largest difference is that of a plank from a square that it faces squarely, with three
+/// points along their edges: in the direction of an edge, the fourth moment of all points is larger
+/// by `2/729` edge^4 than that of few, and the fourth derivative of the kernel is `72 / d^4` times
+/// the kernel. In units of the radius `r` of the points, edges of `3 r` (one) and `3 / sqrt(2) r`
+/// (two) make `(r / d)^4` of the factor, which is `9/2 r^2 / (pi d^2)`. Higher derivatives take
+/// away a tenth. More points have larger radii.
 const LARGEST: f64 = 9.03e-7;
 
 /// The largest difference of both factors between two shapes.
@@ -77,8 +77,8 @@ fn few_points_make_what_all_do() {
     assert!(worst < LARGEST, "{worst:.2e}");
 }
 
-/// Tiles of small faces hold patches that few points stand for beside some that they do not, and some
-/// that are near beside some that are far.
+/// Tiles of small faces hold patches that few points stand for beside some that they do not, and
+/// some that are near beside some that are far.
 #[test]
 fn patches_of_a_tile_go_each_its_own_way() {
     let mut rng = Pcg64Mcg::seed_from_u64(7);
@@ -113,7 +113,8 @@ fn patches_of_a_tile_go_each_its_own_way() {
     assert!(few > 10, "{few} differ");
 }
 
-/// What is derived above, where it is reached: were all points summed, there would be no difference.
+/// What is derived above, where it is reached: were all points summed, there would be no
+/// difference.
 #[test]
 fn the_largest_difference_is_reached() {
     let at = 1.001 * NEAR * 2.0_f64.sqrt() / 3.0 * DVec3::Z;

@@ -93,7 +93,8 @@ proptest! {
         let (here, there) = (cut(cluttered(), 2), cut(there, 2));
         let (a, b) = (regular(&here, 2), regular(&there, 2));
         for (x, y) in a.exchange.values().iter().zip(b.exchange.values()) {
-            prop_assert!(f64::from((x - y).abs()) <= SINGLE * f64::from(x.max(*y)) + 1e-9, "{} {}", x, y);
+            let rounding = SINGLE * f64::from(x.max(*y)) + 1e-9;
+            prop_assert!(f64::from((x - y).abs()) <= rounding, "{} {}", x, y);
         }
     }
 }

@@ -1,7 +1,8 @@
-//! What estimators make of meshes: against closed forms, exact factors, the plainest loops, and each other.
+//! What estimators make of meshes: against closed forms, exact factors, the plainest loops, and
+//! each other.
 //!
-//! `cargo test -p radiosity-form-factors --test main touching` runs those of one file; slow campaigns
-//! run with `-- --include-ignored`.
+//! `cargo test -p radiosity-form-factors --test main touching` runs those of one file; slow
+//! campaigns run with `-- --include-ignored`.
 
 mod accurate;
 mod bare;

@@ -3,9 +3,9 @@
 use radiosity_geometry::{DVec3, Mesh, Occluders, Polygon};
 use std::f64::consts::PI;
 
-/// The regular rule computes in single precision, relative to a point among eight patches: distances
-/// between touching patches, of a sixth of an edge or more, are exact to `24 * 2^-24`, and the kernel
-/// goes with the square of heights and distances.
+/// The regular rule computes in single precision, relative to a point among eight patches:
+/// distances between touching patches, of a sixth of an edge or more, are exact to `24 * 2^-24`,
+/// and the kernel goes with the square of heights and distances.
 pub(crate) const SINGLE: f64 = 2.0 * 24.0 / (1 << 24) as f64;
 
 /// The plainest loop over all points of all patches, in double precision. Nothing is culled,

@@ -1,7 +1,8 @@
 //! Random pairs of polygons with nothing between them, against adaptive quadrature.
 //!
-//! The oracle shares nothing with what it judges: Lambert's formula for the factor from a point to a
-//! polygon, integrated over triangles that are cut until a rule of degree five agrees with itself.
+//! The oracle shares nothing with what it judges: Lambert's formula for the factor from a point to
+//! a polygon, integrated over triangles that are cut until a rule of degree five agrees with
+//! itself.
 
 use crate::estimated::accurate;
 use radiosity_geometry::{DVec3, Divisions, subdivide};

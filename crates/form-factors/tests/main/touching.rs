@@ -1,4 +1,5 @@
-//! Partly hidden pairs that touch or nearly touch: every tolerance is kept, and rows know their errors.
+//! Partly hidden pairs that touch or nearly touch: every tolerance is kept, and rows know their
+//! errors.
 
 use crate::estimated::accurate;
 use radiosity_form_factors::FormFactors;
@@ -60,8 +61,8 @@ impl Campaign {
         self.rows.iter().map(of).sum::<f64>() / self.rows.len() as f64
     }
 
-    /// The tolerance is kept; 95 % of the rows are off by less than twice what they tell, and on average
-    /// they tell no more than four times what they are off by.
+    /// The tolerance is kept; 95 % of the rows are off by less than twice what they tell, and on
+    /// average they tell no more than four times what they are off by.
     fn check(&self) {
         let Campaign {
             kind,
@@ -117,8 +118,8 @@ fn small_tolerances_are_kept() {
     }
 }
 
-/// A wall on a floor, a screen close to the wall, a lid on both, and things behind the screen: whatever
-/// they hide of the floor from the wall, the screen hides, too.
+/// A wall on a floor, a screen close to the wall, a lid on both, and things behind the screen:
+/// whatever they hide of the floor from the wall, the screen hides, too.
 fn niche(things: u32) -> Mesh {
     let mut shapes = vec![
         quad([[0., 1., 0.], [0., 0., 0.], [8., 0., 0.], [8., 1., 0.]]),
@@ -160,8 +161,8 @@ fn harmless_things_change_nothing() {
     assert!((share - alone).abs() < 4.0 * noise, "{share} {alone}");
 }
 
-/// The share of rays from the wall of a niche, in directions of density `cos / pi`, that meet its floor
-/// first.
+/// The share of rays from the wall of a niche, in directions of density `cos / pi`, that meet its
+/// floor first.
 fn floor_seen_by_rays(niche: &Mesh, rays: u32) -> f64 {
     let mut rng = Pcg64Mcg::seed_from_u64(1);
     let polygons: Vec<&Polygon> = niche.faces.iter().map(|face| &face.polygon).collect();

@@ -57,9 +57,9 @@ fn what_stands_on_a_patch_hides_what_is_under_it() {
     let mut boxes = cuboid(DVec3::new(0.0, 1.0, 0.0), [1.0, 1.0, 0.7]);
     boxes.extend(cuboid(DVec3::new(0.2, 0.25, 0.0), [0.6, 0.7, 0.5]));
     let [partly, covered, beside, far] = visible(boxes);
-    // 2,048 points of a lattice, of which those near the edges of the box are left to chance: each tells
-    // 1/2,048, and along a circumference of 2.6 there are 2.6 times the root of 2,048. The walls of the
-    // other box are seen from their fronts.
+    // 2,048 points of a lattice, of which those near the edges of the box are left to chance: each
+    // tells 1/2,048, and along a circumference of 2.6 there are 2.6 times the root of 2,048. The
+    // walls of the other box are seen from their fronts.
     let chance = (2.6 * 2048f64.sqrt()).sqrt() / 2048.0;
     assert!(
         (partly - (1.0 - 0.6 * 0.7)).abs() < 4.0 * chance,
@@ -179,8 +179,8 @@ fn small_gaps_count() {
         made.rows[..4].iter().map(|row| row.backs).sum::<f64>() / 4.0
     };
     for others in [Vec::new(), many_more()] {
-        // Less than single precision may round off products with distances in this room. By the factor
-        // of equal parallel squares at a distance of 1.5 of their edges.
+        // Less than single precision may round off products with distances in this room. By the
+        // factor of equal parallel squares at a distance of 1.5 of their edges.
         assert!((backs(3.0 - 2e-6, others.clone()) - 0.1166).abs() < 0.01);
         assert_eq!(backs(3.0 + 2e-6, others.clone()), 0.0);
         assert_eq!(backs(3.0, others), 0.0);

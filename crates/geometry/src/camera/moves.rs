@@ -5,9 +5,9 @@ use glam::{DQuat, DVec3};
 use std::f64::consts::TAU;
 
 impl Camera {
-    /// So many cameras on a full turn, of which this one is the first: counter-clockwise as seen from
-    /// above, around an axis that points up and goes through what this camera looks at, as far away as
-    /// `center` is.
+    /// So many cameras on a full turn, of which this one is the first: counter-clockwise as seen
+    /// from above, around an axis that points up and goes through what this camera looks at, as far
+    /// away as `center` is.
     pub fn turntable(&self, center: DVec3, frames: u32) -> Vec<Camera> {
         let depth = (center - self.position).dot(self.forward).max(0.0);
         let pivot = self.position + depth * self.forward;
@@ -26,8 +26,8 @@ impl Camera {
     }
 
     /// So many cameras on the way from the first of some cameras, past the others, to the last: by
-    /// Catmull and Rom's spline ("A Class of Local Interpolating Splines", 1974), in equal times from
-    /// one to the next. Fails where on the way a camera would look nowhere, or straight up.
+    /// Catmull and Rom's spline ("A Class of Local Interpolating Splines", 1974), in equal times
+    /// from one to the next. Fails where on the way a camera would look nowhere, or straight up.
     ///
     /// # Panics
     ///

@@ -105,7 +105,8 @@ fn the_later_of_two_equal_faces_counts() {
     );
 }
 
-/// A lamp in the place of one square of a ceiling, whose edges it shares, before the ceiling and after it.
+/// A lamp in the place of one square of a ceiling, whose edges it shares, before the ceiling and
+/// after it.
 #[test]
 fn what_shares_edges_with_a_mesh_lies_on_it_in_any_order() {
     let third = 1.0 / 3.0;
@@ -194,7 +195,8 @@ proptest! {
     /// Whatever lies on a wall, the wall and all that is on it have the area of the wall.
     #[test]
     fn areas_sum_to_that_of_the_wall(
-        places in prop::collection::vec((0.0f64..0.8, 0.0f64..0.8, 0.01f64..0.2, 0.01f64..0.2), 1..6),
+        places in prop::collection::vec(
+            (0.0f64..0.8, 0.0f64..0.8, 0.01f64..0.2, 0.01f64..0.2), 1..6),
         cells in 1u32..5,
     ) {
         let shapes = places.iter().map(|&(x, y, width, height)| {

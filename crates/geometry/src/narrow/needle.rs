@@ -1,10 +1,10 @@
-//! Triangles between two lines that are cut into pieces: rungs join a vertex of the more finely cut line to
-//! the vertex of the other that is nearest along the base.
+//! Triangles between two lines that are cut into pieces: rungs join a vertex of the more finely cut
+//! line to the vertex of the other that is nearest along the base.
 
 use std::cmp::Ordering;
 
-/// The part of a row that is between its base and an edge of the face. All counts are from the apex, where the two meet.
-/// Without base there is none.
+/// The part of a row that is between its base and an edge of the face. All counts are from the
+/// apex, where the two meet. Without base there is none.
 #[derive(Clone, Copy)]
 pub(super) struct Needle {
     /// Pieces of the base.
@@ -24,8 +24,9 @@ impl Needle {
         }
     }
 
-    /// How many pieces of the base and of the edge are between the apex and a rung. Each rung is one piece further than
-    /// the one before on the line of more pieces, and at most one on the other.
+    /// How many pieces of the base and of the edge are between the apex and a rung. Each rung is
+    /// one piece further than the one before on the line of more pieces, and at most one on the
+    /// other.
     pub(super) fn rung(self, k: u32) -> [u32; 2] {
         let Needle { base, side, extent } = self;
         let nearest = |pieces: f64| pieces.round() as u32;
@@ -46,7 +47,8 @@ impl Needle {
         }
     }
 
-    /// The cell at a place, given from the edge along the base, in pieces of the base, and in heights above the base.
+    /// The cell at a place, given from the edge along the base, in pieces of the base, and in
+    /// heights above the base.
     pub(super) fn cell_at(self, from_edge: f64, height: f64) -> u32 {
         let is_beyond = |k: u32| {
             let [base, side] = self.rung(k).map(f64::from);
@@ -64,7 +66,8 @@ impl Needle {
         low
     }
 
-    /// The length of the longest rung, for pieces of the base as long as this and rows of this height.
+    /// The length of the longest rung, for pieces of the base as long as this and rows of this
+    /// height.
     pub(super) fn longest_rung(self, piece: f64, height: f64) -> f64 {
         let length = |k: u32| {
             let [base, side] = self.rung(k).map(f64::from);

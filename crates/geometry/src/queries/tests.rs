@@ -143,8 +143,8 @@ fn check_bundle(occluders: &Occluders, segments: &[(DVec3, DVec3)], except: [Fac
     }
 }
 
-/// Enough small triangles for a tree of several levels, and more leaves along segments than are met at
-/// a time.
+/// Enough small triangles for a tree of several levels, and more leaves along segments than are met
+/// at a time.
 #[test]
 fn bundles_find_their_way_among_many_faces() {
     let turn = |k: u32, by: f64| 5.0 * (f64::from(k) * by).fract();

@@ -34,8 +34,8 @@ pub(super) struct Viewed<'a> {
     pub(super) camera: &'a Camera,
     /// The directions of the film.
     pub(super) film: [DVec3; 3],
-    /// How far faces are set back for each that others in their plane are to be seen before: backs behind
-    /// fronts, and faces behind those that lie on them.
+    /// How far faces are set back for each that others in their plane are to be seen before: backs
+    /// behind fronts, and faces behind those that lie on them.
     pub(super) tolerance: f64,
     /// How many of them lie on each other, at most.
     pub(super) layers: u32,

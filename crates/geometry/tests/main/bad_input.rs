@@ -136,8 +136,8 @@ fn bad_divisions_are_explained() {
     );
 }
 
-/// A unit square far from the origin: where a hundred times the rounding of coordinates is more than a patch,
-/// it is refused.
+/// A unit square far from the origin: where a hundred times the rounding of coordinates is more
+/// than a patch, it is refused.
 #[test]
 fn patches_need_digits() {
     let square = |away: f64| {

@@ -44,7 +44,9 @@ proptest! {
     /// However the candidates between two faces are found, segments are judged as if every
     /// face had been tried.
     #[test]
-    fn no_blocker_is_lost_between_ends(mesh in triangles(60), s in 0.05f64..0.45, t in 0.05f64..0.45) {
+    fn no_blocker_is_lost_between_ends(
+        mesh in triangles(60), s in 0.05f64..0.45, t in 0.05f64..0.45,
+    ) {
         let occluders = Occluders::new(&mesh);
         let point_on = |f: usize| mesh.faces[f].polygon.barycentric(s, t);
         for j in 1..mesh.faces.len().min(8) {

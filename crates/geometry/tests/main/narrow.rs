@@ -1,4 +1,5 @@
-//! Narrow triangles: as few patches as their area and length ask for, and vertices where neighbours have theirs.
+//! Narrow triangles: as few patches as their area and length ask for, and vertices where neighbours
+//! have theirs.
 
 use crate::sliver::{Sliver, any_sliver};
 use proptest::prelude::*;
@@ -30,7 +31,8 @@ fn edges(mesh: &Mesh) -> Vec<[[i64; 3]; 2]> {
     mesh.patches.iter().flat_map(of_patch).collect()
 }
 
-/// How many edges of patches lie along an edge of the face, if they follow each other from its one end to its other.
+/// How many edges of patches lie along an edge of the face, if they follow each other from its one
+/// end to its other.
 fn pieces(mesh: &Mesh, edge: usize) -> usize {
     let Grid::Narrow(grid) = mesh.faces[0].grid else {
         panic!("{:?}", mesh.faces[0].grid);

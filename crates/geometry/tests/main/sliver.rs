@@ -44,7 +44,8 @@ impl Sliver {
     }
 }
 
-/// Triangles whose longest edge is at least twice their height; their feet are anywhere, often at an end.
+/// Triangles whose longest edge is at least twice their height; their feet are anywhere, often at
+/// an end.
 pub(crate) fn any_sliver() -> impl Strategy<Value = Sliver> {
     let foot = prop_oneof![2 => 0.0..1.0, 1 => Just(0.0), 1 => 0.0..0.1, 1 => Just(1.0)];
     let height = prop_oneof![1 => 0.01..0.499, 1 => (-14.0..-1.0).prop_map(f64::exp2)];

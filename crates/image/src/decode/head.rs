@@ -1,4 +1,5 @@
-//! What the head of a picture's file says: its format, and its size before any memory is taken for it.
+//! What the head of a picture's file says: its format, and its size before any memory is taken for
+//! it.
 
 #[cfg(feature = "openexr")]
 use super::openexr;
@@ -32,8 +33,8 @@ impl Format {
     }
 }
 
-/// How many pixels a picture has across and down, as [`decode_picture`](crate::decode_picture) would read it.
-/// For whoever has little memory: what decoding takes grows with them.
+/// How many pixels a picture has across and down, as [`decode_picture`](crate::decode_picture)
+/// would read it. For whoever has little memory: what decoding takes grows with them.
 pub fn picture_size(bytes: &[u8]) -> Result<(u32, u32), DecodeError> {
     match Format::of(bytes)? {
         Format::Png => png::size(bytes),

@@ -55,8 +55,8 @@ fn set_pixel(image: &mut Image, at: Vec2<usize>, (r, g, b): (f32, f32, f32)) {
     image.pixels[index] = [r, g, b];
 }
 
-/// Pictures are unpacked block by block, of which a small one may claim to have large ones, or ones of
-/// many channels; by three channels a pixel is counted.
+/// Pictures are unpacked block by block, of which a small one may claim to have large ones, or ones
+/// of many channels; by three channels a pixel is counted.
 fn check_blocks(header: &Header, bytes: &[u8]) -> Result<(), DecodeError> {
     let size = header.max_block_pixel_size();
     let channels = header.channels.list.len();
@@ -65,7 +65,8 @@ fn check_blocks(header: &Header, bytes: &[u8]) -> Result<(), DecodeError> {
     checked.map_err(|_| DecodeError::Broken {
         format: FORMAT,
         problem: format!(
-            "its blocks of {} x {} pixels with {channels} channels are too large for a file of {} bytes",
+            "its blocks of {} x {} pixels with {channels} channels are too large for a file of {} \
+             bytes",
             size.width(),
             size.height(),
             bytes.len()

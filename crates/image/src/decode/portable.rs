@@ -55,8 +55,8 @@ pub(super) fn float_map(bytes: &[u8]) -> Result<Image, DecodeError> {
     })
 }
 
-/// A pixmap, of text (P3) or of bytes (P6, two bytes a sample above 255 levels), with the radiance of
-/// levels between 0 and 1.
+/// A pixmap, of text (P3) or of bytes (P6, two bytes a sample above 255 levels), with the radiance
+/// of levels between 0 and 1.
 pub(super) fn pixmap(bytes: &[u8], radiance: impl Fn(f64) -> f32) -> Result<Image, DecodeError> {
     let broken = |problem: &str| broken(PIXMAP, problem);
     let mut header = Header::new(bytes);

@@ -1,5 +1,5 @@
-//! The noise that dithers levels: a function of the pixel alone, so that pictures are repeated to the
-//! byte.
+//! The noise that dithers levels: a function of the pixel alone, so that pictures are repeated to
+//! the byte.
 
 /// Uniform in [0, 1), and as good as independent from pixel to pixel and channel to channel.
 pub(super) fn noise([x, y, channel]: [u32; 3]) -> f32 {

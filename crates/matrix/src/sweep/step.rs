@@ -17,8 +17,8 @@ pub(super) struct Step<'a> {
     pub(super) last: Option<(Stretch<'a>, &'a [OfRows<f32>])>,
     /// The next block in this band, and where its products with the band go.
     pub(super) next: Option<(Stretch<'a>, &'a mut [OfRows<f32>])>,
-    /// What the next step of this thread reads first; where it helps another with that one's last band,
-    /// what the other does.
+    /// What the next step of this thread reads first; where it helps another with that one's last
+    /// band, what the other does.
     pub(super) ahead: Option<Stretch<'a>>,
     /// Whether what the last blocks added becomes part of the sums in double precision.
     pub(super) settles: bool,

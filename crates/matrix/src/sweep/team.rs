@@ -6,6 +6,8 @@
 //! its cache; then it takes what is left of those of others, who may have come late or never: from
 //! their end, so that it is the same bands again. A claim on a band is a number that also tells the
 //! step, so whoever comes late claims nothing.
+//!
+//! Long because: how threads claim bands is right or wrong as a whole.
 
 use super::Triple;
 use super::band::{BLOCK, Band, OfRows, WIDTH, is_dark};

@@ -1,14 +1,15 @@
 //! Edges that bound a hole: no other face closes them, along all of their length.
 //!
-//! An edge of a single face may be closed all the same. The lower edges of a box lie on the floor it stands
-//! on, and a long edge may run along several short ones. So what other faces hold of an edge, in their plane
-//! and within their outline, is taken from it, and the edge is open if something is left.
+//! An edge of a single face may be closed all the same. The lower edges of a box lie on the floor
+//! it stands on, and a long edge may run along several short ones. So what other faces hold of an
+//! edge, in their plane and within their outline, is taken from it, and the edge is open if
+//! something is left.
 
 use super::edges::{Edges, Side};
 use radiosity_geometry::{Aabb, DVec3, Face, Mesh};
 
-/// Relative to the size of the scene: files have six digits or more, and a slit that is narrower lets out
-/// less than rays tell.
+/// Relative to the size of the scene: files have six digits or more, and a slit that is narrower
+/// lets out less than rays tell.
 const NARROW: f64 = 1e-5;
 
 /// The faces that have open edges, in the order of the mesh; of each surface only the first.

@@ -3,8 +3,8 @@
 use super::*;
 use radiosity_geometry::subdivide;
 
-/// The faces of a room of 2 x 3 x 1 by corners 0 to 7, of which bits tell the coordinates, but for its lid;
-/// turned inwards.
+/// The faces of a room of 2 x 3 x 1 by corners 0 to 7, of which bits tell the coordinates, but for
+/// its lid; turned inwards.
 const ROOM: [(&str, &[usize]); 5] = [
     ("floor", &[0, 1, 3, 2]),
     ("left", &[0, 2, 6, 4]),
@@ -69,8 +69,8 @@ fn a_box_on_the_floor_does_not_bound_the_hole_above() {
     let warned_open = warned(&faces, &BOX_CORNERS);
     assert_eq!(
         only(&warned_open),
-        "edges of `back`, `front`, `left`, `right` have no neighbour: a surface is missing there, or \
-         corners do not meet"
+        "edges of `back`, `front`, `left`, `right` have no neighbour: a surface is missing there, \
+         or corners do not meet"
     );
     faces.push(LID);
     assert!(warned(&faces, &BOX_CORNERS).is_empty());
@@ -119,8 +119,8 @@ fn of_a_turned_lid_the_walls_are_not_named() {
     let warned = warned(&faces, &[[1.0, 1.5, 1.0]]);
     assert_eq!(
         only(&warned),
-        "`lid-1`, `lid-2`, `lid-3`, `lid-4` face the other way than their neighbours: reverse the order \
-         of their corners"
+        "`lid-1`, `lid-2`, `lid-3`, `lid-4` face the other way than their neighbours: reverse the \
+         order of their corners"
     );
 }
 
@@ -140,8 +140,8 @@ fn of_two_equal_sides_both_are_named() {
     let warned = warned(&faces, &[]);
     assert_eq!(
         only(&warned),
-        "`back`, `floor`, `front`, `left`, `lid`, `right` face the other way than their neighbours: \
-         reverse the order of the corners of those that face outwards"
+        "`back`, `floor`, `front`, `left`, `lid`, `right` face the other way than their \
+         neighbours: reverse the order of the corners of those that face outwards"
     );
 }
 

@@ -1,8 +1,8 @@
 //! Faces that face the other way than those beside them.
 //!
-//! Faces that hang together by edges of two faces each can be parted into two sides, those that face one
-//! way and those that face the other. Where both are there, those of the smaller area are the fault, most
-//! likely; of sides of equal area either may be.
+//! Faces that hang together by edges of two faces each can be parted into two sides, those that
+//! face one way and those that face the other. Where both are there, those of the smaller area are
+//! the fault, most likely; of sides of equal area either may be.
 
 use super::edges::Edges;
 use radiosity_geometry::Mesh;

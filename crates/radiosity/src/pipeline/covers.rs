@@ -7,7 +7,8 @@ use std::collections::BTreeSet;
 /// So many pairs of surfaces are told one by one.
 const MOST_TOLD: usize = 8;
 
-/// A line for each pair of surfaces of which one lies on the other: in its plane, facing the same way.
+/// A line for each pair of surfaces of which one lies on the other: in its plane, facing the same
+/// way.
 pub fn notes(scene: &Scene, mesh: &Mesh) -> Vec<String> {
     let surface = |face: usize| mesh.faces[face].surface.index();
     let covered = mesh.covers.covered().iter();
@@ -27,8 +28,8 @@ pub fn notes(scene: &Scene, mesh: &Mesh) -> Vec<String> {
         match scene.form_factors.mode {
             Mode::Accurate => format!("note: {place}; what is below exchanges no light"),
             Mode::Regular | Mode::MonteCarlo => format!(
-                "warning: {place}; both exchange light there, and rows sum to more than 1 (the accurate \
-                 mode leaves out what is below)"
+                "warning: {place}; both exchange light there, and rows sum to more than 1 (the \
+                 accurate mode leaves out what is below)"
             ),
         }
     };

@@ -64,8 +64,8 @@ impl Pipeline<'_> {
         self.look(&self.renderer(&shown, shadings), &camera)
     }
 
-    /// A quantity on all patches. What goes back to form factors takes those that were kept, or from the
-    /// cache where possible.
+    /// A quantity on all patches. What goes back to form factors takes those that were kept, or
+    /// from the cache where possible.
     pub fn shown(&self, light: &PatchLight, quantity: Quantity) -> Result<Shown, Error> {
         let all = self.all_light(light);
         let patches = all.value.len();

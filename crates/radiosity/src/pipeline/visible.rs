@@ -1,9 +1,9 @@
 //! Patches of which a part lies inside of something, or is covered.
 //!
-//! The hidden part exchanges no light, so what a patch exchanges is the radiosity of its visible part,
-//! which is more than the mean over all of it: it is the finite element of the accurate mode. In the
-//! other modes elements are whole patches, as in textbooks and in the course, and what is visible
-//! is put right for pictures alone.
+//! The hidden part exchanges no light, so what a patch exchanges is the radiosity of its visible
+//! part, which is more than the mean over all of it: it is the finite element of the accurate mode.
+//! In the other modes elements are whole patches, as in textbooks and in the course, and what is
+//! visible is put right for pictures alone.
 
 use super::{PatchLight, Pipeline};
 use radiosity_form_factors::RowFacts;

@@ -5,7 +5,8 @@ use radiosity_geometry::DVec3;
 use radiosity_simd::{Float, Simd, angle};
 use std::f64::consts::TAU;
 
-/// The form factors of points to an emitter that all of them see whole; see [`form_factor`](super::pieces::form_factor).
+/// The form factors of points to an emitter that all of them see whole; see
+/// [`form_factor`](super::pieces::form_factor).
 #[inline(always)]
 pub(super) fn clear_factors<S: Simd>(
     simd: S,

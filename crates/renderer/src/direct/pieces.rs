@@ -58,8 +58,8 @@ impl Cutting {
         self.pieces.push(&self.inside);
     }
 
-    /// Cuts out the shadow of a polygon, of which the front is seen or the back; the part alone that
-    /// lies nearer than a plane, which is where `normal . p = distance`.
+    /// Cuts out the shadow of a polygon, of which the front is seen or the back; the part alone
+    /// that lies nearer than a plane, which is where `normal . p = distance`.
     pub(super) fn cut_out(
         &mut self,
         blocker: &[DVec3],
@@ -134,7 +134,8 @@ fn clip(polygon: &[DVec3], height_of: impl Fn(DVec3) -> f64, kept: &mut Vec<DVec
 }
 
 /// The form factor from a point of a surface with a normal to a polygon above its horizon, whose
-/// corners run counter-clockwise as the point sees them (Lambert, Photometria, 1760; Hottel & Sarofim 1967).
+/// corners run counter-clockwise as the point sees them (Lambert, Photometria, 1760; Hottel &
+/// Sarofim 1967).
 pub(super) fn form_factor(polygon: &[DVec3], normal: DVec3) -> f64 {
     let Some(&last) = polygon.last() else {
         return 0.0;

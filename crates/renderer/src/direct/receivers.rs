@@ -20,8 +20,8 @@ pub(crate) struct Receivers<F> {
 /// The points of an emitter to which segments are tried, where too much is in the way.
 #[derive(Clone, Copy)]
 pub(crate) enum EmitterSamples {
-    /// The samples of a pixel share a sequence, which this scrambles; the number is that of the sample
-    /// in the first lane.
+    /// The samples of a pixel share a sequence, which this scrambles; the number is that of the
+    /// sample in the first lane.
     Shared([u32; 2], u32),
     /// To a point that depends on the place alone.
     Single,

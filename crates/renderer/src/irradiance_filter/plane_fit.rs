@@ -28,8 +28,8 @@ impl PlaneFit {
         }
     }
 
-    /// The plane's value where `u = v = 0`, but never less than nothing; the mean, if the places do not
-    /// tell a plane.
+    /// The plane's value where `u = v = 0`, but never less than nothing; the mean, if the places do
+    /// not tell a plane.
     pub(super) fn at_center(&self) -> Rgb {
         let [one, u, v, uu, uv, vv] = self.moments;
         // Cofactors of the first column of the moments' matrix.

@@ -123,8 +123,8 @@ fn shadows_are_counted_once() {
     assert!((found - 0.5 * expected(whole)).abs() < ROUNDING, "{found}");
 }
 
-/// Blockers with a corner in the lamp's plane, on either side of it, block as those that are a little
-/// higher or lower do.
+/// Blockers with a corner in the lamp's plane, on either side of it, block as those that are a
+/// little higher or lower do.
 #[test]
 fn corners_in_the_plane_of_the_lamp_do_no_harm() {
     let shadow = |height: f64| {
@@ -223,15 +223,15 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(40))]
 
     /// Triangles anywhere between and around. Where a shadow's edge crosses a row of samples, it is
-    /// misplaced by half a step at most: twice for each of three triangles. The integrand is nowhere
-    /// more than twice its mean.
+    /// misplaced by half a step at most: twice for each of three triangles. The integrand is
+    /// nowhere more than twice its mean.
     #[test]
     fn shadows_are_those_of_samples(
         triangles in prop::collection::vec(
             prop::array::uniform3((coordinate(), coordinate(), 0.1f64..2.5)), 0..4),
         x in coordinate(), y in coordinate(),
     ) {
-        let corners = |triangle: &[(f64, f64, f64); 3]| triangle.map(|(x, y, z)| DVec3::new(x, y, z));
+        let corners = |triangle: &[(f64, f64, f64); 3]| triangle.map(DVec3::from);
         let is_large = |triangle: &[(f64, f64, f64); 3]| {
             let [a, b, c] = corners(triangle);
             (b - a).cross(c - a).length() > 1e-2

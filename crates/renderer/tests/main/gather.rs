@@ -73,9 +73,9 @@ fn a_furnace_is_evenly_bright() {
     }
 }
 
-/// Under a square that reflects what was reflected before, in a dark room: the irradiance is its form
-/// factor times that, and half of it where a lid covers half of the view. Its gain is apart from that
-/// of direct light.
+/// Under a square that reflects what was reflected before, in a dark room: the irradiance is its
+/// form factor times that, and half of it where a lid covers half of the view. Its gain is apart
+/// from that of direct light.
 #[test]
 fn what_is_gathered_has_its_form_factor() {
     let square = |z: f64, right: f64| {
@@ -119,8 +119,9 @@ fn what_is_gathered_has_its_form_factor() {
         for (c, exitance) in [3.0, 2.0, 1.0].into_iter().enumerate() {
             let expected = 0.8 * exitance * share * factor;
             let found = f64::from(found[c]) * std::f64::consts::PI;
-            // Of 4,096 directions, each in a cell of its own, those in the 4 x 64 cells along the border
-            // of the square are left to chance, by half a direction each: 8 of 2,200 together.
+            // Of 4,096 directions, each in a cell of its own, those in the 4 x 64 cells along the
+            // border of the square are left to chance, by half a direction each: 8 of 2,200
+            // together.
             assert!(
                 (found / expected - 1.0).abs() < 4.0 * 8.0 / 2200.0,
                 "{found} {expected}"

@@ -7,8 +7,8 @@ use radiosity_renderer::Outlines;
 
 const SIZE: u32 = 40;
 
-/// A square, seen from its front, that fills a picture of 40 x 40 pixels but for a margin of 4 pixels,
-/// and whatever stands before it.
+/// A square, seen from its front, that fills a picture of 40 x 40 pixels but for a margin of 4
+/// pixels, and whatever stands before it.
 fn outlines(divisions: u32, before: Option<Shape>, backs: Backs) -> Outlines {
     let shapes = [plate(0.8, 0.0)].into_iter().chain(before);
     let mesh = cut(shapes.collect(), divisions);
@@ -17,7 +17,8 @@ fn outlines(divisions: u32, before: Option<Shape>, backs: Backs) -> Outlines {
     Outlines::new(&mesh, (&camera, backs), (SIZE, SIZE))
 }
 
-/// A square of this half of an edge at this height, with its front up; a negative one turns it down.
+/// A square of this half of an edge at this height, with its front up; a negative one turns it
+/// down.
 fn plate(half: f64, z: f64) -> Shape {
     let h = half.abs();
     quad([[-half, -h, z], [half, -h, z], [half, h, z], [-half, h, z]])
@@ -38,8 +39,8 @@ fn row(draw: impl FnOnce(&mut Rgb8Image)) -> Vec<u8> {
 
 const WHITE: [u8; 3] = [255; 3];
 
-/// Four patches of 8 pixels: lines lie at 4, 12, 20, 28 and 36, on the border of two pixels, and are one
-/// pixel wide together.
+/// Four patches of 8 pixels: lines lie at 4, 12, 20, 28 and 36, on the border of two pixels, and
+/// are one pixel wide together.
 fn borders(strength: f32) -> Vec<u8> {
     let level = (255.0 * 0.5 * strength + 0.5) as u8;
     let is_beside = |x: usize| (x + 1) % 8 == 4 || x % 8 == 4;

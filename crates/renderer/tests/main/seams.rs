@@ -18,8 +18,9 @@ fn jumps_across(mesh: &Mesh, light: &Light, from: DVec3, to: DVec3) -> f32 {
     (0..20).map(jump).fold(0.0, f32::max)
 }
 
-/// A millionth of the mean, 20 / pi. Values up to 40 change by at most 40 per cell of size 1/8, so over a
-/// distance of 2e-9 by 6e-7 or less, and single precision adds some 1e-6; a seam would show jumps of order 1.
+/// A millionth of the mean, 20 / pi. Values up to 40 change by at most 40 per cell of size 1/8, so
+/// over a distance of 2e-9 by 6e-7 or less, and single precision adds some 1e-6; a seam would show
+/// jumps of order 1.
 const CONTINUOUS: f32 = 1e-6 * 20.0 / PI;
 
 #[test]

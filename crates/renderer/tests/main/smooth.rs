@@ -113,7 +113,8 @@ proptest! {
     #[test]
     fn constants_are_shown_as_they_are(value in 0.1f32..10.0, n in 1u32..6) {
         let [a, b, c, d] = square();
-        let shapes = [vec![Shape::Quad([a, b, c, d])], two_triangles(), vec![Shape::Mesh(bumpy(4, 0.02))]];
+        let (quad, mesh) = (Shape::Quad([a, b, c, d]), Shape::Mesh(bumpy(4, 0.02)));
+        let shapes = [vec![quad], two_triangles(), vec![mesh]];
         for shape in shapes {
             let mesh = cut(shape, n);
             let radiosity = vec![[value; 3]; mesh.patches.len()];

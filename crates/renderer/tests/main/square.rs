@@ -15,8 +15,8 @@ pub(crate) fn two_triangles() -> Vec<Shape> {
     vec![Shape::Triangle([a, b, c]), Shape::Triangle([c, d, a])]
 }
 
-/// The view of a square region of the plane z = 0 from above it, one sample a pixel: by patches, and
-/// smooth.
+/// The view of a square region of the plane z = 0 from above it, one sample a pixel: by patches,
+/// and smooth.
 pub(crate) fn view(
     mesh: &Mesh,
     fields: &Fields<'_>,

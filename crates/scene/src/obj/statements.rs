@@ -105,7 +105,8 @@ pub(super) fn position(text: &str) -> Result<DVec3, Problem> {
     Ok(position)
 }
 
-/// The number of a vertex of `VERTEX/TEXTURE/NORMAL`: counted from 1, or back from the newest by -1.
+/// The number of a vertex of `VERTEX/TEXTURE/NORMAL`: counted from 1, or back from the newest by
+/// -1.
 pub(super) fn vertex_number(word: &str) -> Result<i64, Problem> {
     let number = word.split('/').next().unwrap_or_default();
     match number.parse() {

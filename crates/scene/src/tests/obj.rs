@@ -1,4 +1,6 @@
 //! What OBJ files say, and what of them says nothing.
+//!
+//! Long because: one test for each thing that a file may say.
 
 use super::meshes::MeshScene;
 use crate::Scene;

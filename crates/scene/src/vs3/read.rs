@@ -1,4 +1,6 @@
 //! The lines of a `.vs3` file.
+//!
+//! Long because: one function for each kind of line.
 
 use crate::source::{Complaint, SceneError, Source, shortened};
 use crate::values::MOST_NAME;

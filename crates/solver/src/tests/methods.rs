@@ -164,8 +164,8 @@ fn errors_are_known() {
     }
 }
 
-/// In the room of equal patches, the first sweeps tell the reflectance, and with it the best factor:
-/// one that is greater or smaller needs more sweeps.
+/// In the room of equal patches, the first sweeps tell the reflectance, and with it the best
+/// factor: one that is greater or smaller needs more sweeps.
 #[test]
 fn the_automatic_factor_is_the_best_in_a_uniform_room() {
     for rho in [0.5, 0.9, 0.95] {

@@ -117,8 +117,8 @@ proptest! {
     }
 }
 
-/// Along a corridor in which patches see their neighbours alone, one channel is reflected on and on,
-/// and the others die away at once: the many steps that the first one needs leave them alone.
+/// Along a corridor in which patches see their neighbours alone, one channel is reflected on and
+/// on, and the others die away at once: the many steps that the first one needs leave them alone.
 #[test]
 fn channels_that_have_converged_rest() {
     let (size, reflectance) = (100, [0.999, 0.1, 1e-4]);

@@ -25,8 +25,8 @@ fn a_system_that_makes_light_names_its_worst_patches() {
     }
 }
 
-/// rho = 1 in a closed room: light never goes away. Row sums in single precision lie within 1e-7 of 1, on
-/// either side.
+/// rho = 1 in a closed room: light never goes away. Row sums in single precision lie within 1e-7 of
+/// 1, on either side.
 #[test]
 fn rooms_that_absorb_nothing_have_no_solution() {
     for (size, reflectance) in [(5, [1.0; 3]), (40, [1.0, 0.5, 0.01])] {
@@ -74,8 +74,8 @@ fn plates(factor: f32, reflectances: [f64; 2]) -> Case {
     )
 }
 
-/// Far from a solution after one pass, and much worse than the emission alone: the first plate reflects 90
-/// times what it is to have had from the second one by then.
+/// Far from a solution after one pass, and much worse than the emission alone: the first plate
+/// reflects 90 times what it is to have had from the second one by then.
 #[test]
 fn what_is_worse_than_no_light_is_no_solution() {
     let params = Params {

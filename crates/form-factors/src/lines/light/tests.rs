@@ -13,8 +13,8 @@ use std::f64::consts::PI;
 /// Pieces into which a line is cut.
 const PIECES: usize = 16;
 
-/// The light on each piece of a line, which is half as long as the longest of a fan, from the middle of
-/// a patch.
+/// The light on each piece of a line, which is half as long as the longest of a fan, from the
+/// middle of a patch.
 struct Pieces<'a>([&'a Target; 2], &'a Fan);
 
 impl Kernel for Pieces<'_> {
