@@ -47,25 +47,50 @@ const STEPS: [(&str, &[&str]); 7] = [
     ),
 ];
 
+/// Programs that show how the library is used. What they write is left in `target/ci`.
+const EXAMPLES: [&str; 4] = ["cornell", "own_mesh", "view_factors", "relight"];
+
 /// Runs all steps and stops at the first that fails.
 pub(crate) fn run(root: &Path) -> ExitCode {
     let folder = crate::folder(root);
-    for (name, arguments) in STEPS {
-        let start = Instant::now();
-        eprintln!("ci: {name}: cargo {}", arguments.join(" "));
-        let status = Command::new("cargo")
-            .args(arguments)
-            .env("RUSTDOCFLAGS", "-D warnings")
-            .current_dir(folder)
-            .status();
-        if !status.is_ok_and(|status| status.success()) {
-            eprintln!("ci: {name} failed");
-            return ExitCode::FAILURE;
-        }
-        eprintln!(
-            "ci: {name} passed in {:.0} s",
-            start.elapsed().as_secs_f64()
-        );
+    let passed = STEPS
+        .iter()
+        .all(|(name, arguments)| passes(name, arguments, folder))
+        && examples_pass(&folder.join("target/ci"));
+    if passed {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
     }
-    ExitCode::SUCCESS
+}
+
+fn examples_pass(folder: &Path) -> bool {
+    if let Err(error) = std::fs::create_dir_all(folder) {
+        eprintln!("ci: cannot create {}: {error}", folder.display());
+        return false;
+    }
+    let run = ["run", "--release", "--package", "radiosity", "--example"];
+    EXAMPLES.iter().all(|example| {
+        let arguments = [&run[..], &[example]].concat();
+        passes(&format!("example {example}"), &arguments, folder)
+    })
+}
+
+/// Runs cargo, and says whether it succeeded.
+fn passes(name: &str, arguments: &[&str], folder: &Path) -> bool {
+    let start = Instant::now();
+    eprintln!("ci: {name}: cargo {}", arguments.join(" "));
+    let status = Command::new("cargo")
+        .args(arguments)
+        .env("RUSTDOCFLAGS", "-D warnings")
+        .current_dir(folder)
+        .status();
+    let passed = status.is_ok_and(|status| status.success());
+    if passed {
+        let seconds = start.elapsed().as_secs_f64();
+        eprintln!("ci: {name} passed in {seconds:.0} s");
+    } else {
+        eprintln!("ci: {name} failed");
+    }
+    passed
 }
