@@ -2,7 +2,8 @@
 
 use std::fmt::{self, Display, Formatter};
 
-/// What mends an error, in words that hold for any program. Whoever has flags or buttons for it names them.
+/// What mends an error, in words that hold for any program. Whoever has flags or buttons for it
+/// names them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Remedy {
@@ -44,8 +45,8 @@ impl Display for Remedy {
         let text = match self {
             Remedy::Camera => "add a [camera] with `position`, `look_at` and `vertical_fov`",
             Remedy::SceneFile => {
-                "a View3D file (.vs3) holds neither camera nor light: write its surfaces into a scene file \
-                 (.toml) with a [camera] and a material that emits"
+                "a View3D file (.vs3) holds neither camera nor light: write its surfaces into a \
+                 scene file (.toml) with a [camera] and a material that emits"
             }
             Remedy::AccurateEstimator => "use the accurate estimator",
             Remedy::AccurateEstimatorOrDarker => {
