@@ -312,7 +312,8 @@ pub struct CacheCommand {
 pub struct InspectCommand {
     /// A cached file; `cache list` names them
     pub file: PathBuf,
-    /// The scene, for the names of its surfaces [default: the one that the file is named after]
+    /// The scene, for the names of its surfaces [default: the one that used the file
+    /// last]
     #[arg(long)]
     pub scene: Option<PathBuf>,
     #[command(flatten)]
@@ -326,7 +327,7 @@ pub struct InspectCommand {
 /// What to do with the cache.
 #[derive(Clone, Copy, Debug, Subcommand)]
 pub enum CacheAction {
-    /// List the cached artifacts
+    /// List the cached artifacts: stage, size, last use, file, and the scene that used it last
     List,
     /// Remove all of them but those in use
     Clean,
