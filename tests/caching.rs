@@ -1,6 +1,6 @@
 //! Nothing is computed twice, and nothing stale or damaged is ever used.
 
-use radiosity::cache::Store;
+use radiosity::cache::{Limits, Store};
 use radiosity::geometry::{Camera, DVec3, Divisions};
 use radiosity::scene::{Exposure, Material, Mode, Scene};
 use radiosity::solver::Solution;
@@ -128,7 +128,7 @@ fn a_cold_run_equals_a_warm_one_byte_for_byte() {
 fn the_first_run_computes_and_the_second_does_not() {
     let bench = Bench::warm();
     assert_eq!(bench.reasons(), none());
-    bench.store().clean().unwrap();
+    bench.store().clean(Limits::default()).unwrap();
     let nothing = Some("nothing cached yet".to_owned());
     assert_eq!(bench.reasons(), (nothing.clone(), nothing));
 }
@@ -366,7 +366,7 @@ fn a_cache_that_cannot_be_written_costs_a_note() {
 fn two_processes_share_the_work() {
     let bench = &Bench::warm();
     for names in [["cornell", "cornell"], ["cornell", "copy"]] {
-        bench.store().clean().unwrap();
+        bench.store().clean(Limits::default()).unwrap();
         let computed = std::thread::scope(|scope| {
             let of = |name| scope.spawn(move || bench.reasons_as(name));
             let reasons = names.map(of).map(|thread| thread.join().unwrap());

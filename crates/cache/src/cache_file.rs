@@ -49,6 +49,10 @@ impl CacheFile {
         self.path == partial_of(&self.artifact)
     }
 
+    pub(crate) fn is_lock(&self) -> bool {
+        self.path == lock_of(&self.artifact)
+    }
+
     pub(crate) fn is_last_use(&self) -> bool {
         self.path == last_use_of(&self.artifact)
     }

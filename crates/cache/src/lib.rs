@@ -5,12 +5,13 @@
 //! [`Artifact`] or the reason why there is none ([`Miss`]); every doubt about a file is a miss,
 //! never an error and never wrong data. [`Store::write`] replaces files atomically; a [`Draft`] is
 //! written as it is made, and survives its writer. What was made of a file that somebody changed
-//! meanwhile is not kept ([`Store::check`]).
+//! meanwhile is not kept ([`Store::check`]). [`Store::clean`] removes what nobody has used for long.
 //!
 //! This crate is the only one that names bincode. It knows nothing of physics.
 
 mod artifact;
 mod cache_file;
+mod clean;
 mod digests;
 mod draft;
 mod format;
@@ -27,6 +28,7 @@ mod values;
 mod tests;
 
 pub use artifact::{Artifact, Opened, open};
+pub use clean::{Amount, Cleaned, Limits};
 pub use draft::{Batch, Draft, OnFailure, Unusable};
 pub use format::Miss;
 pub use key::Key;

@@ -151,35 +151,6 @@ impl Store {
         Ok((head.len() + data.len()) as u64)
     }
 
-    /// Removes all cached files, and what interrupted processes left; returns how many files
-    /// and bytes. Files in use by a running process are left alone, and so is whatever does not
-    /// have the name of a cached file.
-    pub fn clean(&self) -> Result<(usize, u64), CacheError> {
-        let (mut count, mut bytes) = (0, 0);
-        for file in self.files()? {
-            let lock = lock_of(&file.artifact);
-            let taken = Lock::try_take(lock.clone()).map_err(CacheError::new("lock", &lock))?;
-            let Some(_lock) = taken else {
-                continue;
-            };
-            // Dropping the lock removes its file, where the system allows that.
-            if file.path == lock_of(&file.artifact) {
-                continue;
-            }
-            let size = fs::metadata(&file.path).map_or(0, |m| m.len());
-            match fs::remove_file(&file.path) {
-                Ok(()) if file.is_last_use() => {}
-                Ok(()) => {
-                    count += 1;
-                    bytes += size;
-                }
-                Err(error) if error.kind() == ErrorKind::NotFound => {}
-                Err(error) => return Err(CacheError::new("remove", &file.path)(error)),
-            }
-        }
-        Ok((count, bytes))
-    }
-
     /// Removes what interrupted writers of an artifact left. The caller has its lock.
     pub(crate) fn remove_leftovers(&self, artifact: &Path) {
         for file in self.files().unwrap_or_default() {

@@ -212,41 +212,6 @@ fn locks_exclude_and_leave_nothing_behind() {
 }
 
 #[test]
-fn clean_spares_what_is_in_use() {
-    let (_folder, store) = written();
-    store.write(&id(2), &(), &[]).unwrap();
-    let lock = store.lock(&id(2), || ()).unwrap();
-    assert_eq!(store.clean().unwrap().0, 1);
-    assert_eq!(store.list().unwrap().len(), 1);
-    drop(lock);
-    assert_eq!(store.clean().unwrap().0, 1);
-    assert!(store.list().unwrap().is_empty());
-}
-
-#[test]
-fn clean_spares_what_is_not_cached() {
-    let (folder, store) = written();
-    let strangers = [
-        "Cargo.lock",
-        "firmware.bin",
-        "a.partial",
-        "box-0123456789abcdef.txt",
-    ];
-    for name in strangers {
-        fs::write(folder.path().join(name), b"mine").unwrap();
-    }
-    fs::create_dir(folder.path().join("box-form-factors-0123456789abcdef.bin")).unwrap();
-    let leftover = "box-form-factors-0123456789abcdee.bin.radiosity-Zz12ab.partial";
-    fs::write(folder.path().join(leftover), b"half").unwrap();
-    assert_eq!(store.list().unwrap().len(), 1);
-    assert_eq!(store.clean().unwrap().0, 2);
-    assert_eq!(
-        fs::read_dir(folder.path()).unwrap().count(),
-        strangers.len() + 1
-    );
-}
-
-#[test]
 fn writers_of_one_file_do_not_meet() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("result");

@@ -1,5 +1,6 @@
 //! The command line, as clap reads it.
 
+use super::cache_args::CacheCommand;
 use super::choices::{ByArg, ModeArg};
 use super::image_args::{DisplayArgs, ImageArgs, OF_PICTURES};
 use super::light_args::LightArgs;
@@ -296,17 +297,6 @@ pub struct CheckArgs {
     pub scene: SceneArgs,
 }
 
-/// `cache`.
-#[derive(Debug, Args)]
-pub struct CacheCommand {
-    /// What to do
-    #[command(subcommand)]
-    pub action: CacheAction,
-    /// Folder of cached form factors and solutions
-    #[arg(long = "cache", value_name = "DIR", global = true)]
-    pub folder: Option<PathBuf>,
-}
-
 /// `inspect`.
 #[derive(Debug, Args)]
 pub struct InspectCommand {
@@ -322,13 +312,4 @@ pub struct InspectCommand {
     /// Print one JSON object on standard output
     #[arg(long)]
     pub json: bool,
-}
-
-/// What to do with the cache.
-#[derive(Clone, Copy, Debug, Subcommand)]
-pub enum CacheAction {
-    /// List the cached artifacts: stage, size, last use, file, and the scene that used it last
-    List,
-    /// Remove all of them but those in use
-    Clean,
 }

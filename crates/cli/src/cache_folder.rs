@@ -1,28 +1,28 @@
 //! `cache list` and `cache clean`.
 
-use super::args::{CacheAction, CacheCommand};
+use super::cache_args::{CacheAction, CacheCommand};
 use super::printable;
 use super::site::Site;
 use super::terminal::say;
 use radiosity::Error;
-use radiosity::cache::{Entry, Miss, Store};
+use radiosity::cache::{Amount, Cleaned, Entry, Limits, Miss, Store};
 use radiosity::words::{bytes, counted};
 
 const ARTIFACTS: [&str; 2] = ["artifact", "artifacts"];
+const FILES: [&str; 2] = ["file", "files"];
 
 pub(crate) fn run(command: &CacheCommand, site: &Site) -> Result<(), Error> {
     let folder = command.folder.as_ref().unwrap_or(&site.cache);
     let store = Store::new(folder);
     match command.action {
         CacheAction::List => list(&store),
-        CacheAction::Clean => {
-            let (files, size) = store.clean().map_err(Error::CacheFolder)?;
-            let folder = folder.display();
-            say(&format!(
-                "removed {files} files ({}) from {folder}",
-                bytes(size)
-            ))
-        }
+        CacheAction::Clean(args) => clean(
+            &store,
+            Limits {
+                age: args.older,
+                bytes: args.keep,
+            },
+        ),
     }
 }
 
@@ -58,4 +58,27 @@ fn describe(entry: &Entry) -> String {
     let size = bytes(entry.bytes);
     let line = format!("{stage:<14}{size:>8}  {age:<12}{name:<34}  {scene}");
     line.trim_end().to_owned()
+}
+
+fn clean(store: &Store, limits: Limits) -> Result<(), Error> {
+    let cleaned = store.clean(limits).map_err(Error::CacheFolder)?;
+    let (removed, folder) = (amount(cleaned.removed), store.folder().display());
+    say(&format!("removed {removed} from {folder}"))?;
+    say(&left_line(&cleaned))
+}
+
+fn left_line(cleaned: &Cleaned) -> String {
+    let left = amount(cleaned.left);
+    match cleaned.in_use {
+        Amount { files: 0, .. } => format!("left: {left}"),
+        in_use => format!(
+            "left: {left}, of which another process is making {}",
+            amount(in_use)
+        ),
+    }
+}
+
+fn amount(amount: Amount) -> String {
+    let size = bytes(amount.bytes);
+    format!("{} ({size})", counted(amount.files, FILES))
 }

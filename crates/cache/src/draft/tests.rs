@@ -3,7 +3,7 @@
 use super::{Batch, Draft, Unusable};
 use crate::cache_file::{journal_of, partial_of};
 use crate::digests::BLOCK_VALUES;
-use crate::{CacheError, Id, Key, Miss, Store, format};
+use crate::{CacheError, Id, Key, Limits, Miss, Store, format};
 use proptest::prelude::*;
 use serde::{Serialize, Serializer};
 use std::fs::{self, File, OpenOptions};
@@ -311,7 +311,8 @@ fn half_an_artifact_is_none() {
     };
     assert!(matches!(entry.stage, Err(Miss::Unfinished)));
     assert_eq!(entry.scene.as_deref(), Some("box"));
-    assert_eq!(store.clean().unwrap().0, 2, "the draft and its journal");
+    let cleaned = store.clean(Limits::default()).unwrap();
+    assert_eq!(cleaned.removed.files, 2, "the draft and its journal");
 }
 
 #[test]
