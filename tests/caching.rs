@@ -2,7 +2,7 @@
 //!
 //! Long because: one test for each reason to compute anew.
 
-use radiosity::cache::Store;
+use radiosity::cache::{Limits, Store};
 use radiosity::geometry::{Camera, DVec3, Divisions};
 use radiosity::scene::{Exposure, Material, Mode, Scene};
 use radiosity::solver::Solution;
@@ -40,13 +40,24 @@ impl Bench {
     }
 
     fn solve(&self) -> Solved {
+        self.solve_scene(&self.scene)
+    }
+
+    fn solve_scene(&self, scene: &Scene) -> Solved {
         let store = self.store();
-        let pipeline = Pipeline::new(&self.scene, Some(&store), &Silent).unwrap();
+        let pipeline = Pipeline::new(scene, Some(&store), &Silent).unwrap();
         pipeline.solution(Sources::Cached).unwrap()
     }
 
     fn reasons(&self) -> Reasons {
-        let solved = self.solve();
+        self.reasons_as(&self.scene.name)
+    }
+
+    /// With the scene under this name.
+    fn reasons_as(&self, name: &str) -> Reasons {
+        let mut scene = self.scene.clone();
+        scene.name = name.to_owned();
+        let solved = self.solve_scene(&scene);
         (
             solved.form_factors.reason().map(str::to_owned),
             solved.origin.reason().map(str::to_owned),
@@ -62,17 +73,10 @@ impl Bench {
 
     /// The only cached file of a stage.
     fn file(&self, stage: &str) -> PathBuf {
-        let start = format!("cornell-{stage}-");
-        let mut files = fs::read_dir(self.folder.path())
-            .unwrap()
-            .map(|e| e.unwrap().path());
-        let is_it = |path: &PathBuf| {
-            path.file_name()
-                .unwrap()
-                .to_str()
-                .unwrap()
-                .starts_with(&start)
-        };
+        let entries = self.store().list().unwrap().into_iter();
+        let name = |path: &PathBuf| path.file_name().unwrap().to_str().unwrap().to_owned();
+        let mut files = entries.map(|entry| entry.path);
+        let is_it = |path: &PathBuf| name(path).starts_with(&format!("{stage}-"));
         files.find(is_it).unwrap()
     }
 
@@ -126,7 +130,7 @@ fn a_cold_run_equals_a_warm_one_byte_for_byte() {
 fn the_first_run_computes_and_the_second_does_not() {
     let bench = Bench::warm();
     assert_eq!(bench.reasons(), none());
-    bench.store().clean().unwrap();
+    bench.store().clean(Limits::default()).unwrap();
     let nothing = Some("nothing cached yet".to_owned());
     assert_eq!(bench.reasons(), (nothing.clone(), nothing));
 }
@@ -153,6 +157,11 @@ fn names_depend_on_no_artifact_key() {
         Bench::after(|s| s.materials[0].name = "renamed".to_owned()),
         none()
     );
+}
+
+#[test]
+fn the_scenes_name_depends_on_no_artifact_key() {
+    assert_eq!(Bench::after(|s| s.name = "copy".to_owned()), none());
 }
 
 #[test]
@@ -276,7 +285,7 @@ fn damage_is_noticed_named_and_mended() {
     }
 }
 
-/// Form factors that another scene left under this one's name and key prefix.
+/// Form factors that another scene left under the key prefix of this one's.
 #[test]
 fn a_file_with_another_key_is_not_believed() {
     let mut bench = Bench::warm();
@@ -353,15 +362,18 @@ fn a_cache_that_cannot_be_written_costs_a_note() {
     );
 }
 
-/// Two at once: one computes, the other waits and takes what the first has made.
+/// Two at once, whatever they call the scene: one computes, the other waits and takes what the
+/// first has made.
 #[test]
 fn two_processes_share_the_work() {
-    let bench = Bench::warm();
-    bench.store().clean().unwrap();
-    let computed = std::thread::scope(|scope| {
-        let threads: Vec<_> = (0..2).map(|_| scope.spawn(|| bench.reasons())).collect();
-        let reasons = threads.into_iter().map(|thread| thread.join().unwrap());
-        reasons.filter(|reasons| *reasons != none()).count()
-    });
-    assert_eq!(computed, 1);
+    let bench = &Bench::warm();
+    for names in [["cornell", "cornell"], ["cornell", "copy"]] {
+        bench.store().clean(Limits::default()).unwrap();
+        let computed = std::thread::scope(|scope| {
+            let of = |name| scope.spawn(move || bench.reasons_as(name));
+            let reasons = names.map(of).map(|thread| thread.join().unwrap());
+            reasons.iter().filter(|&reasons| *reasons != none()).count()
+        });
+        assert_eq!(computed, 1, "{names:?}");
+    }
 }

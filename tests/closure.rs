@@ -5,6 +5,7 @@ use radiosity::geometry::Divisions;
 use radiosity::scene::{Mode, Scene};
 use radiosity::{How, Pipeline, Silent, Sources};
 use radiosity_tests::shipped;
+use std::path::Path;
 use tempfile::TempDir;
 
 fn scene(closure: bool) -> Scene {
@@ -15,13 +16,11 @@ fn scene(closure: bool) -> Scene {
     scene
 }
 
+/// The names of artifacts.
 fn names(folder: &TempDir) -> Vec<String> {
-    let entries = std::fs::read_dir(folder.path()).unwrap();
-    let mut names: Vec<String> = entries
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    names
+    let entries = Store::new(folder.path()).list().unwrap();
+    let name = |path: &Path| path.file_name().unwrap().to_string_lossy().into_owned();
+    entries.iter().map(|entry| name(&entry.path)).collect()
 }
 
 #[test]

@@ -13,6 +13,7 @@ use crate::cache_file::partial_of;
 use crate::digests::{Digest, Digests};
 use crate::format;
 use crate::key::Key;
+use crate::last_use::note_use;
 use crate::lock::is_still_at;
 use crate::store::{CacheError, Id, Store};
 use crate::values::{Source, Stamp, Values};
@@ -69,6 +70,7 @@ impl Draft {
         let start = start(id, blank, count);
         let partial = partial_of(&path);
         let file = create(&partial, start).map_err(CacheError::new("create", &partial))?;
+        note_use(&path, id.scene);
         Ok(Draft::of(store, id, file, start, count))
     }
 
@@ -115,6 +117,7 @@ impl Draft {
         let digests = journal.digests_of(&partial, &file)?;
         file.set_len(journal.end())?;
         file.seek(SeekFrom::End(0))?;
+        note_use(&path, id.scene);
         let draft = Draft {
             written: journal.written,
             saved: journal.written,

@@ -51,13 +51,13 @@ pub(crate) struct Header {
 /// Why an artifact is not taken from the cache.
 #[derive(Debug, thiserror::Error)]
 pub enum Miss {
-    /// There is no file of this scene and stage.
+    /// There is no file of this key, nor one of this stage that the scene used last.
     #[error("nothing cached yet")]
     Nothing,
     /// The file is being written, or its writer was interrupted; the next one goes on with it.
     #[error("unfinished")]
     Unfinished,
-    /// There are files of this scene and stage, made from other inputs.
+    /// The scene used a file of this stage that was made from other inputs.
     #[error("inputs changed")]
     InputsChanged,
     /// The file cannot be read.

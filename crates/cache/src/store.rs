@@ -1,10 +1,11 @@
 //! The cache folder.
 
-use crate::artifact::{Artifact, Opened, open};
+use crate::artifact::{Artifact, Opened};
 use crate::cache_file::{CacheFile, EXTENSION, journal_of, lock_of, partial_of};
 use crate::digests::Digests;
 use crate::format::{self, Miss};
 use crate::key::Key;
+use crate::last_use::{last_user, note_use};
 use crate::lock::Lock;
 use crate::replace::replace_file;
 use crate::values::{Changed, InUse};
@@ -15,6 +16,9 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+#[cfg(test)]
+mod tests;
+
 /// A folder of cached artifacts.
 #[derive(Clone, Debug)]
 pub struct Store {
@@ -22,28 +26,16 @@ pub struct Store {
     pub(crate) in_use: Arc<InUse>,
 }
 
-/// What names an artifact: the file is `<scene>-<stage>-<key prefix>.bin`.
+/// What names an artifact, and who asks for it. The file is `<stage>-<key prefix>.bin`: scenes that
+/// have the same inputs share it, whatever they are called.
 #[derive(Clone, Copy, Debug)]
 pub struct Id<'a> {
-    /// The name of the scene, for people.
+    /// The name of the scene, for people alone.
     pub scene: &'a str,
     /// The name of the stage.
     pub stage: &'a str,
     /// The identity.
     pub key: Key,
-}
-
-/// A file in the cache.
-#[derive(Debug)]
-pub struct Entry {
-    /// Where it is.
-    pub path: PathBuf,
-    /// Its size.
-    pub bytes: u64,
-    /// When it was written, where the file system tells.
-    pub modified: Option<std::time::SystemTime>,
-    /// The stage it names, or why it is not usable.
-    pub stage: Result<String, Miss>,
 }
 
 /// A cache folder or file that cannot be used.
@@ -75,10 +67,8 @@ impl Store {
 
     /// The path of an artifact's file.
     pub fn path(&self, id: &Id<'_>) -> PathBuf {
-        let Id { scene, stage, key } = id;
-        let prefix = key.prefix();
-        self.folder
-            .join(format!("{scene}-{stage}-{prefix}.{EXTENSION}"))
+        let (stage, prefix) = (id.stage, id.key.prefix());
+        self.folder.join(format!("{stage}-{prefix}.{EXTENSION}"))
     }
 
     /// Takes exclusive use of an artifact; calls `on_wait` once if another process has it.
@@ -102,16 +92,35 @@ impl Store {
 
     /// Reads an artifact's facts, or says why it must be computed. The values are not yet read.
     pub fn read<F: DeserializeOwned>(&self, id: &Id<'_>) -> Result<Artifact<F>, Miss> {
-        let opened = match Opened::at(&self.path(id), self.in_use.clone()) {
-            Err(Miss::Io(error)) if error.kind() == ErrorKind::NotFound => {
-                return Err(self.absence(id));
-            }
-            opened => opened?,
-        };
+        let opened = self.open(id)?;
         if opened.key != id.key || opened.stage != id.stage {
             return Err(Miss::OtherKey);
         }
-        opened.into_artifact()
+        let artifact = opened.into_artifact()?;
+        note_use(&self.path(id), id.scene);
+        Ok(artifact)
+    }
+
+    fn open(&self, id: &Id<'_>) -> Result<Opened, Miss> {
+        let path = self.path(id);
+        match Opened::at(&path, self.in_use.clone()) {
+            Err(Miss::Io(error)) if error.kind() == ErrorKind::NotFound => {
+                if self.rename_former(&path) {
+                    Opened::at(&path, self.in_use.clone())
+                } else {
+                    Err(self.absence(id))
+                }
+            }
+            opened => opened,
+        }
+    }
+
+    /// Gives the artifact that is to be at a path its name, if an earlier version wrote it under
+    /// another; whether it is there now.
+    fn rename_former(&self, path: &Path) -> bool {
+        let files = self.files().unwrap_or_default();
+        let former = files.iter().find(|file| file.is_former_name_of(path));
+        former.is_some_and(|former| fs::rename(&former.path, path).is_ok())
     }
 
     /// Whether files whose values are used in place are still what they were. What was made of them
@@ -138,39 +147,8 @@ impl Store {
         checked
             .and_then(|()| replace_file(&path, &[&head, data]))
             .map_err(CacheError::new("write", &path))?;
+        note_use(&path, id.scene);
         Ok((head.len() + data.len()) as u64)
-    }
-
-    /// All cached files, by name, unfinished ones included.
-    pub fn list(&self) -> Result<Vec<Entry>, CacheError> {
-        let is_listed = |file: &CacheFile| file.is_artifact() || file.is_draft();
-        let files = self.files()?.into_iter().filter(is_listed);
-        Ok(files.map(Entry::of).collect())
-    }
-
-    /// Removes all cached files, and what interrupted processes left; returns how many files
-    /// and bytes. Files in use by a running process are left alone, and so is whatever does not
-    /// have the name of a cached file.
-    pub fn clean(&self) -> Result<(usize, u64), CacheError> {
-        let (mut count, mut bytes) = (0, 0);
-        for file in self.files()? {
-            let lock = lock_of(&file.artifact);
-            let taken = Lock::try_take(lock.clone()).map_err(CacheError::new("lock", &lock))?;
-            let Some(_lock) = taken else {
-                continue;
-            };
-            // Dropping the lock removes its file, where the system allows that.
-            if file.path == lock_of(&file.artifact) {
-                continue;
-            }
-            bytes += fs::metadata(&file.path).map_or(0, |m| m.len());
-            match fs::remove_file(&file.path) {
-                Ok(()) => count += 1,
-                Err(error) if error.kind() == ErrorKind::NotFound => {}
-                Err(error) => return Err(CacheError::new("remove", &file.path)(error)),
-            }
-        }
-        Ok((count, bytes))
     }
 
     /// Removes what interrupted writers of an artifact left. The caller has its lock.
@@ -189,19 +167,19 @@ impl Store {
 
     /// Why there is no file: never made, or made from other inputs.
     fn absence(&self, id: &Id<'_>) -> Miss {
-        let prefix = format!("{}-{}-", id.scene, id.stage);
-        let is_sibling = |file: &CacheFile| {
-            let name = file.path.file_name().and_then(|name| name.to_str());
-            file.is_artifact() && name.is_some_and(|name| name.starts_with(&prefix))
+        let is_of_the_scene = |file: &CacheFile| {
+            file.is_artifact()
+                && file.stage == id.stage
+                && last_user(&file.artifact).as_deref() == Some(id.scene)
         };
         match self.files() {
-            Ok(files) if files.iter().any(is_sibling) => Miss::InputsChanged,
+            Ok(files) if files.iter().any(is_of_the_scene) => Miss::InputsChanged,
             _ => Miss::Nothing,
         }
     }
 
     /// All files of the folder that have the name of an artifact, its lock or a part of it.
-    fn files(&self) -> Result<Vec<CacheFile>, CacheError> {
+    pub(crate) fn files(&self) -> Result<Vec<CacheFile>, CacheError> {
         let entries = match fs::read_dir(&self.folder) {
             Ok(entries) => entries,
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
@@ -214,22 +192,6 @@ impl Store {
         let mut files: Vec<CacheFile> = paths.filter_map(CacheFile::of).collect();
         files.sort_by(|a, b| a.path.cmp(&b.path));
         Ok(files)
-    }
-}
-
-impl Entry {
-    fn of(file: CacheFile) -> Entry {
-        let metadata = fs::metadata(&file.path).ok();
-        Entry {
-            bytes: metadata.as_ref().map_or(0, fs::Metadata::len),
-            modified: metadata.and_then(|m| m.modified().ok()),
-            stage: if file.is_draft() {
-                Err(Miss::Unfinished)
-            } else {
-                open(&file.path).map(|opened| opened.stage)
-            },
-            path: file.path,
-        }
     }
 }
 

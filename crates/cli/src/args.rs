@@ -1,5 +1,6 @@
 //! The command line, as clap reads it.
 
+use super::cache_args::CacheCommand;
 use super::choices::{ByArg, ModeArg};
 use super::image_args::{DisplayArgs, ImageArgs, OF_PICTURES};
 use super::light_args::LightArgs;
@@ -296,23 +297,13 @@ pub struct CheckArgs {
     pub scene: SceneArgs,
 }
 
-/// `cache`.
-#[derive(Debug, Args)]
-pub struct CacheCommand {
-    /// What to do
-    #[command(subcommand)]
-    pub action: CacheAction,
-    /// Folder of cached form factors and solutions
-    #[arg(long = "cache", value_name = "DIR", global = true)]
-    pub folder: Option<PathBuf>,
-}
-
 /// `inspect`.
 #[derive(Debug, Args)]
 pub struct InspectCommand {
     /// A cached file; `cache list` names them
     pub file: PathBuf,
-    /// The scene, for the names of its surfaces [default: the one that the file is named after]
+    /// The scene, for the names of its surfaces [default: the one that used the file
+    /// last]
     #[arg(long)]
     pub scene: Option<PathBuf>,
     #[command(flatten)]
@@ -321,13 +312,4 @@ pub struct InspectCommand {
     /// Print one JSON object on standard output
     #[arg(long)]
     pub json: bool,
-}
-
-/// What to do with the cache.
-#[derive(Clone, Copy, Debug, Subcommand)]
-pub enum CacheAction {
-    /// List the cached artifacts
-    List,
-    /// Remove all of them but those in use
-    Clean,
 }

@@ -1,25 +1,28 @@
 //! `cache list` and `cache clean`.
 
-use super::args::{CacheAction, CacheCommand};
+use super::cache_args::{CacheAction, CacheCommand};
+use super::printable;
 use super::site::Site;
 use super::terminal::say;
 use crate::error::Error;
-use radiosity::cache::{Entry, Miss, Store};
-use radiosity::words::bytes;
+use radiosity::cache::{Amount, Cleaned, Entry, Limits, Miss, Store};
+use radiosity::words::{bytes, counted};
+
+const ARTIFACTS: [&str; 2] = ["artifact", "artifacts"];
+const FILES: [&str; 2] = ["file", "files"];
 
 pub(crate) fn run(command: &CacheCommand, site: &Site) -> Result<(), Error> {
     let folder = command.folder.as_ref().unwrap_or(&site.cache);
     let store = Store::new(folder);
     match command.action {
         CacheAction::List => list(&store),
-        CacheAction::Clean => {
-            let (files, size) = store.clean().map_err(Error::CacheFolder)?;
-            let folder = folder.display();
-            say(&format!(
-                "removed {files} files ({}) from {folder}",
-                bytes(size)
-            ))
-        }
+        CacheAction::Clean(args) => clean(
+            &store,
+            Limits {
+                age: args.older,
+                bytes: args.keep,
+            },
+        ),
     }
 }
 
@@ -29,8 +32,9 @@ fn list(store: &Store) -> Result<(), Error> {
         say(&describe(entry))?;
     }
     let size = entries.iter().map(|entry| entry.bytes).sum();
-    let (count, folder) = (entries.len(), store.folder().display());
-    say(&format!("{count} artifacts ({}) in {folder}", bytes(size)))
+    let count = counted(entries.len(), ARTIFACTS);
+    let folder = store.folder().display();
+    say(&format!("{count} ({}) in {folder}", bytes(size)))
 }
 
 fn describe(entry: &Entry) -> String {
@@ -39,7 +43,7 @@ fn describe(entry: &Entry) -> String {
         Err(Miss::Unfinished) => "unfinished".to_owned(),
         Err(miss) => format!("unusable: {miss}"),
     };
-    let age = entry.modified.and_then(|time| time.elapsed().ok());
+    let age = entry.last_use.and_then(|time| time.elapsed().ok());
     let age = age.map_or(String::new(), |age| match age.as_secs() {
         s if s < 60 => "just now".to_owned(),
         s if s < 3600 => format!("{} min ago", s / 60),
@@ -47,5 +51,34 @@ fn describe(entry: &Entry) -> String {
         s => format!("{} days ago", s / 86_400),
     });
     let name = entry.path.file_name().unwrap_or_default().to_string_lossy();
-    format!("{stage:<14}{:>8}  {age:<12}{name}", bytes(entry.bytes))
+    let scene = entry
+        .scene
+        .as_deref()
+        .map_or(String::new(), printable::name);
+    let size = bytes(entry.bytes);
+    let line = format!("{stage:<14}{size:>8}  {age:<12}{name:<34}  {scene}");
+    line.trim_end().to_owned()
+}
+
+fn clean(store: &Store, limits: Limits) -> Result<(), Error> {
+    let cleaned = store.clean(limits).map_err(Error::CacheFolder)?;
+    let (removed, folder) = (amount(cleaned.removed), store.folder().display());
+    say(&format!("removed {removed} from {folder}"))?;
+    say(&left_line(&cleaned))
+}
+
+fn left_line(cleaned: &Cleaned) -> String {
+    let left = amount(cleaned.left);
+    match cleaned.in_use {
+        Amount { files: 0, .. } => format!("left: {left}"),
+        in_use => format!(
+            "left: {left}, of which another process is making {}",
+            amount(in_use)
+        ),
+    }
+}
+
+fn amount(amount: Amount) -> String {
+    let size = bytes(amount.bytes);
+    format!("{} ({size})", counted(amount.files, FILES))
 }

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::lines::{
     class_line, closure_line, error_line, indented, labelled, missed_line, row_line,
 };
-use radiosity::cache::{Miss, open};
+use radiosity::cache::{Miss, last_user, open};
 use radiosity::inspect::{
     CLOSURE_BOUNDS, FactorInspection, Inspection, SolutionInspection, WorstRow,
 };
@@ -23,7 +23,7 @@ pub(super) fn run(args: &InspectCommand, site: &Site) -> Result<(), Error> {
     let unusable = |miss: Miss| unusable(path, &miss);
     check_regular(path)?;
     let opened = open(path).map_err(unusable)?;
-    let names = surface_names(args, site, &opened.stage)?;
+    let names = surface_names(args, site)?;
     let inspection = Inspection::of(opened, names.as_deref()).map_err(unusable)?;
     if args.json {
         return say_json(&inspection);
@@ -61,18 +61,11 @@ fn unusable(path: &Path, miss: &Miss) -> Error {
 }
 
 /// The names of the scene's surfaces, if it is there and can be read: the one that was named, or
-/// the one that the file is named after.
-fn surface_names(
-    args: &InspectCommand,
-    site: &Site,
-    stage: &str,
-) -> Result<Option<Vec<String>>, Error> {
-    let name = args.file.file_name().unwrap_or_default().to_string_lossy();
+/// the one that used the file last.
+fn surface_names(args: &InspectCommand, site: &Site) -> Result<Option<Vec<String>>, Error> {
     let scene = match &args.scene {
         Some(scene) => Some(site.load(scene, args.outside)?),
-        None => name
-            .rsplit_once(&format!("-{stage}-"))
-            .and_then(|(scene, _)| site.load(scene.as_ref(), args.outside).ok()),
+        None => last_user(&args.file).and_then(|name| site.load(name.as_ref(), args.outside).ok()),
     };
     let names = |scene: radiosity::scene::Scene| {
         let surfaces = scene.surfaces.into_iter();

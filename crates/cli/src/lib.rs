@@ -3,6 +3,7 @@
 
 mod apply;
 mod args;
+mod cache_args;
 mod cache_folder;
 mod check;
 mod choices;
@@ -36,10 +37,10 @@ mod usage;
 mod view_args;
 
 pub use args::{
-    CacheAction, CacheArgs, CacheCommand, CheckArgs, Command, CompareCommand, DisplayCommand,
-    EstimateArgs, FormFactorsCommand, InspectCommand, OutsideArgs, ReferenceCommand, SceneArgs,
-    SolveCommand,
+    CacheArgs, CheckArgs, Command, CompareCommand, DisplayCommand, EstimateArgs,
+    FormFactorsCommand, InspectCommand, OutsideArgs, ReferenceCommand, SceneArgs, SolveCommand,
 };
+pub use cache_args::{CacheAction, CacheCommand, CleanArgs};
 pub use image_args::{DisplayArgs, ImageArgs};
 pub use light_args::LightArgs;
 pub use run::run;

@@ -3,6 +3,24 @@
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use radiosity::scene::{Automatic, Exposure, Gamma, MOST_DIMMING, Relaxation, Standard};
 use std::path::PathBuf;
+use std::time::Duration;
+
+/// Units of time, in seconds.
+const OF_TIME: [(&str, f64); 5] = [
+    ("s", 1.0),
+    ("min", 60.0),
+    ("h", 3600.0),
+    ("d", 86_400.0),
+    ("w", 604_800.0),
+];
+/// Units of size, in bytes: those that sizes are told in.
+const OF_SIZE: [(&str, f64); 5] = [
+    ("B", 1.0),
+    ("kB", 1e3),
+    ("MB", 1e6),
+    ("GB", 1e9),
+    ("TB", 1e12),
+];
 
 pub(super) fn parse_counts(text: &str) -> Result<(u32, u32), String> {
     let counts = match text.split_once('x') {
@@ -30,6 +48,32 @@ pub(super) fn parse_positive(text: &str) -> Result<f64, String> {
         Ok(x) if x > 0.0 && f64::is_finite(x) => Ok(x),
         _ => Err("expected a positive number".to_owned()),
     }
+}
+
+/// `7d`.
+pub(super) fn parse_age(text: &str) -> Result<Duration, String> {
+    let seconds = with_unit(text, &OF_TIME);
+    let age = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    age.ok_or("expected a number and a unit (s, min, h, d or w), like 7d".to_owned())
+}
+
+/// `2GB`.
+pub(super) fn parse_bytes(text: &str) -> Result<u64, String> {
+    let bytes = with_unit(text, &OF_SIZE).map(|bytes| bytes as u64);
+    bytes.ok_or("expected a number and a unit (B, kB, MB, GB or TB), like 2GB".to_owned())
+}
+
+/// A number, not negative, before one of these units, which may be in capitals or not.
+fn with_unit(text: &str, units: &[(&str, f64)]) -> Option<f64> {
+    let number_end = text
+        .trim_end_matches(|c: char| c.is_ascii_alphabetic())
+        .len();
+    let (number, unit) = text.split_at(number_end);
+    let (_, size) = units
+        .iter()
+        .find(|(name, _)| name.eq_ignore_ascii_case(unit))?;
+    let value = number.trim().parse::<f64>().ok()? * size;
+    (value >= 0.0 && value.is_finite()).then_some(value)
 }
 
 pub(super) fn parse_row_tolerance(text: &str) -> Result<f64, String> {

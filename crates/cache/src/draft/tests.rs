@@ -3,7 +3,7 @@
 use super::{Batch, Draft, Unusable};
 use crate::cache_file::{journal_of, partial_of};
 use crate::digests::BLOCK_VALUES;
-use crate::{CacheError, Id, Key, Miss, Store, format};
+use crate::{CacheError, Id, Key, Limits, Miss, Store, format};
 use proptest::prelude::*;
 use serde::{Serialize, Serializer};
 use std::fs::{self, File, OpenOptions};
@@ -54,7 +54,10 @@ fn finished(store: &Store, values: &[f32]) -> (Vec<u8>, Option<u64>) {
     assert_eq!(draft.values().unwrap().as_ref(), values);
     assert!(draft.finish(&FACTS).unwrap());
     let left = fs::read_dir(store.folder()).unwrap().count();
-    assert_eq!(left, 1, "nothing but the artifact stays");
+    assert_eq!(
+        left, 2,
+        "nothing but the artifact and the note of its use stays"
+    );
     (fs::read(store.path(&id(1))).unwrap(), begun)
 }
 
@@ -281,6 +284,24 @@ fn drafts_of_other_inputs_are_not_taken() {
     assert!(matches!(resumed(&id(2), 100), Err(Unusable::OtherInputs)));
 }
 
+/// Whoever copies or renames a scene does not lose what was made of it.
+#[test]
+fn a_draft_goes_on_under_another_name() {
+    let values = values(100);
+    let (_folder, store) = interrupted(&values, 50, 25);
+    let copy = Id {
+        scene: "copy",
+        ..id(1)
+    };
+    let resumed = Draft::resume::<u64>(&store, &copy, &BLANK, 100).unwrap();
+    let (mut draft, state) = resumed.expect("it was begun");
+    assert_eq!((state, draft.written), (50, 50));
+    draft.append(&values[50..]).unwrap();
+    assert!(draft.finish(&FACTS).unwrap());
+    assert!(fs::read(store.path(&id(1))).unwrap() == expected(&values));
+    assert!(!partial_of(&store.path(&id(1))).exists());
+}
+
 #[test]
 fn half_an_artifact_is_none() {
     let (_folder, store) = interrupted(&values(100), 50, 50);
@@ -289,14 +310,21 @@ fn half_an_artifact_is_none() {
         panic!("one draft");
     };
     assert!(matches!(entry.stage, Err(Miss::Unfinished)));
-    assert_eq!(store.clean().unwrap().0, 2, "the draft and its journal");
+    assert_eq!(entry.scene.as_deref(), Some("box"));
+    let cleaned = store.clean(Limits::default()).unwrap();
+    assert_eq!(cleaned.removed.files, 2, "the draft and its journal");
 }
 
 #[test]
 fn drafts_beside_an_artifact_are_removed_when_nobody_writes_them() {
     let (_folder, store) = interrupted(&values(100), 50, 0);
     store.write(&id(2), &FACTS, &values(3)).unwrap();
-    let left = || fs::read_dir(store.folder()).unwrap().count();
+    let is_note = |path: &Path| path.extension().is_some_and(|ending| ending == "used");
+    let left = || {
+        let files = fs::read_dir(store.folder()).unwrap();
+        let paths = files.map(|file| file.unwrap().path());
+        paths.filter(|path| !is_note(path)).count()
+    };
     store.tidy(&id(2));
     assert_eq!(left(), 3, "another's is left alone");
     let lock = store.lock(&id(1), || ()).unwrap();

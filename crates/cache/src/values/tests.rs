@@ -48,7 +48,8 @@ fn nothing_is_made_of_a_file_that_is_changed_while_it_is_mapped() {
         refused.to_string().contains("was changed while"),
         "{refused}"
     );
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
+    assert!(!store.path(&id(3)).exists());
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 4);
     // Nobody uses it any more, but what was made of it is still about.
     drop(values);
     assert!(store.check().is_err());
@@ -62,6 +63,20 @@ fn what_is_replaced_or_removed_is_not_changed() {
     fs::remove_file(store.path(&id(1))).unwrap();
     store.check().unwrap();
     assert!(values.as_ref().iter().all(|&value| value == 1.0));
+}
+
+/// Another process notes that it uses the file, too.
+#[test]
+fn what_others_read_is_not_changed() {
+    let (folder, store, values) = mapped();
+    let (_, others) = Store::new(folder.path())
+        .read::<()>(&id(1))
+        .unwrap()
+        .into_values()
+        .unwrap();
+    values.check().unwrap();
+    others.check().unwrap();
+    store.check().unwrap();
 }
 
 #[test]

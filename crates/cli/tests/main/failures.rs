@@ -168,17 +168,12 @@ fn meshes_elsewhere_are_read_on_request() {
     fs::create_dir(place.path("in")).unwrap();
     place.write("in/room.toml", &SCENE.replace("block.obj", "../block.obj"));
     place.succeed("form-factors room.toml --cache c");
-    let file = fs::read_dir(place.path("c"))
-        .unwrap()
-        .next()
-        .unwrap()
-        .unwrap();
-    let file = file.file_name().into_string().unwrap();
+    let file = place.artifact("form-factors");
     for command in [
         "check in/room.toml",
         "solve in/room.toml --no-cache",
         "reference in/room.toml --cells --spp 2",
-        &format!("inspect c/{file} --scene in/room.toml"),
+        &format!("inspect {} --scene in/room.toml", file.display()),
     ] {
         let (code, message) = place.fail(command);
         assert_eq!(code, 3, "{message}");

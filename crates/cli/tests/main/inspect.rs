@@ -3,12 +3,8 @@
 use crate::place::Place;
 use std::fs;
 
-/// The only file of a stage in the cache `c`.
 fn file(place: &Place, stage: &str) -> String {
-    let names = fs::read_dir(place.path("c")).unwrap();
-    let mut names = names.map(|entry| entry.unwrap().file_name().into_string().unwrap());
-    let name = names.find(|name| name.contains(stage)).unwrap();
-    format!("c/{name}")
+    place.artifact(stage).to_str().unwrap().to_owned()
 }
 
 fn solved() -> Place {
@@ -52,6 +48,20 @@ fn form_factors_are_described() {
     assert!(name.starts_with("surface "), "no scene is at hand: {name}");
 }
 
+/// The scene that used a file last is looked up for the names of its surfaces.
+#[test]
+fn the_last_scene_names_surfaces() {
+    let place = solved();
+    fs::create_dir(place.path("scenes")).unwrap();
+    fs::copy(place.path("room.toml"), place.path("scenes/room.toml")).unwrap();
+    fs::copy(place.path("block.obj"), place.path("scenes/block.obj")).unwrap();
+    let said = place.succeed(&format!("inspect {}", file(&place, "form-factors")));
+    assert!(
+        said.contains("`floor`") && !said.contains("`surface "),
+        "{said}"
+    );
+}
+
 #[test]
 fn solutions_are_described() {
     let place = solved();
@@ -69,9 +79,9 @@ fn solutions_are_described() {
 fn what_cannot_be_read_is_explained() {
     let place = solved();
     let form_factors = file(&place, "form-factors");
-    let mut bytes = fs::read(place.path(&form_factors)).unwrap();
+    let mut bytes = fs::read(&form_factors).unwrap();
     *bytes.last_mut().unwrap() ^= 1;
-    fs::write(place.path(&form_factors), bytes).unwrap();
+    fs::write(&form_factors, bytes).unwrap();
     for (path, part) in [
         (&form_factors[..], "data is damaged (block 0)"),
         ("room.toml", "is not a cache file"),

@@ -20,9 +20,7 @@ const KILLS: u32 = 24;
 static ALONE: Mutex<()> = Mutex::new(());
 
 fn artifact(place: &Place) -> Option<PathBuf> {
-    let files = fs::read_dir(place.path("c")).ok()?;
-    let mut paths = files.map(|entry| entry.unwrap().path());
-    paths.find(|path| path.extension().is_some_and(|e| e == "bin"))
+    place.artifacts().pop()
 }
 
 /// The bytes of the artifact when nobody interrupts.
@@ -94,7 +92,29 @@ fn killed_runs_go_on_where_they_were() {
     assert_eq!(code, 0, "{stderr}");
     assert!(fs::read(artifact(&place).unwrap()).unwrap() == *expected);
     let left: Vec<_> = fs::read_dir(place.path("c")).unwrap().collect();
-    assert_eq!(left.len(), 1, "{left:?}");
+    assert_eq!(
+        left.len(),
+        2,
+        "the artifact and the note of its use: {left:?}"
+    );
+}
+
+/// Whoever renames a scene does not lose what was made of it.
+#[test]
+fn killed_runs_go_on_under_another_name() {
+    let _alone = ALONE.lock();
+    let place = Place::new();
+    let mut run = start(&place);
+    assert!(checkpoint_after(None, &place, &mut run));
+    run.kill().unwrap();
+    run.wait().unwrap();
+    let (scene, rest) = LONG.split_once(" --patches").unwrap();
+    let scene = scene.strip_prefix("form-factors ").unwrap();
+    fs::copy(scene, place.path("renamed.toml")).unwrap();
+    let (code, _, stderr) = place.run(&format!("form-factors renamed.toml --patches{rest}"));
+    assert_eq!(code, 0, "{stderr}");
+    assert!(stderr.contains("an interrupted run has left"), "{stderr}");
+    assert!(fs::read(artifact(&place).unwrap()).unwrap() == *undisturbed());
 }
 
 /// The same work, with a result beside the artifact.

@@ -1,5 +1,6 @@
 //! The command, as people call it.
 
+mod cache;
 mod command;
 mod compare;
 mod covers;

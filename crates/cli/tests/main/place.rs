@@ -74,6 +74,24 @@ impl Place {
         fs::write(self.path(name), text).unwrap();
     }
 
+    /// The paths of the artifacts in the cache `c`, by name.
+    pub(crate) fn artifacts(&self) -> Vec<PathBuf> {
+        let files = fs::read_dir(self.path("c")).into_iter().flatten();
+        let mut paths: Vec<PathBuf> = files.map(|file| file.unwrap().path()).collect();
+        paths.retain(|path| path.extension().is_some_and(|ending| ending == "bin"));
+        paths.sort();
+        paths
+    }
+
+    /// The path of the only artifact of a stage in the cache `c`.
+    pub(crate) fn artifact(&self, stage: &str) -> PathBuf {
+        let name = |path: &PathBuf| path.file_name().unwrap().to_string_lossy().into_owned();
+        let mut artifacts = self.artifacts();
+        artifacts.retain(|path| name(path).starts_with(&format!("{stage}-")));
+        let [artifact] = <[PathBuf; 1]>::try_from(artifacts).expect("one file of the stage");
+        artifact
+    }
+
     /// Runs with `arguments` apart by spaces; exit code, standard output and error.
     pub(crate) fn run(&self, arguments: &str) -> (i32, String, String) {
         let output = self.command(arguments).output().unwrap();

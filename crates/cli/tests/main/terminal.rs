@@ -26,14 +26,14 @@ fn is_plain(text: &str) -> bool {
 fn names_do_not_reach_the_terminal_as_commands() {
     let place = hostile();
     place.succeed("solve room.toml --cache c --export a.csv");
-    let files = fs::read_dir(place.path("c")).unwrap();
-    let files = files.map(|file| format!("c/{}", file.unwrap().file_name().display()));
-    let inspect = files.map(|file| format!("inspect {file} --scene room.toml"));
+    let files = place.artifacts().into_iter();
+    let inspect = files.map(|file| format!("inspect {} --scene room.toml", file.display()));
     let mut commands = vec![
         "check room.toml".to_owned(),
         "compare a.csv a.csv --scene room.toml".to_owned(),
         "compare a.csv a.csv --scene room.toml --json".to_owned(),
         "form-factors room.toml --cache c --json".to_owned(),
+        "cache list --cache c".to_owned(),
         "display room.toml --cache c --factors-of floor:0,0".to_owned(),
         "render room.toml --cache c --dim x=1".to_owned(),
     ];
@@ -125,11 +125,7 @@ fn names_in_tables_are_no_formulas() {
 fn a_full_standard_output_is_an_error() {
     let place = Place::new();
     place.succeed("solve room.toml --cache c --export a.csv");
-    let file = fs::read_dir(place.path("c"))
-        .unwrap()
-        .next()
-        .unwrap()
-        .unwrap();
+    let file = place.artifact("form-factors");
     let commands = [
         "render room.toml --cache c".to_owned(),
         "render room.toml --cache c --json".to_owned(),
@@ -141,7 +137,7 @@ fn a_full_standard_output_is_an_error() {
         "compare a.csv a.csv --scene room.toml".to_owned(),
         "check room.toml".to_owned(),
         "cache list --cache c".to_owned(),
-        format!("inspect c/{}", file.file_name().display()),
+        format!("inspect {}", file.display()),
         "help".to_owned(),
         "--version".to_owned(),
     ];
