@@ -107,7 +107,12 @@ proptest! {
     ) {
         let holes = [rectangle(x, y, width, height), rectangle(x2, y2, width, height)];
         let rest = faces(&holes);
-        prop_assert!((total(&rest) - 1.0 + 2.0 * width * height).abs() < 1e-12);
+        // Between a hole and the border there may be a sliver, which is left out: no wider than the
+        // tolerance, and no longer than the wall.
+        let gaps = [x, y, y2, 1.0 - x2 - width, 1.0 - y - height, 1.0 - y2 - height];
+        let slivers = gaps.iter().filter(|gap| gap.abs() <= TOLERANCE).count();
+        let bound = 1e-12 + slivers as f64 * TOLERANCE;
+        prop_assert!((total(&rest) - 1.0 + 2.0 * width * height).abs() < bound);
         // No point of a hole is inside of a face.
         let center = DVec3::new(x + 0.5 * width, y + 0.5 * height, 2.0);
         for face in rest {
