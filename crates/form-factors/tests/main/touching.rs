@@ -78,7 +78,7 @@ impl Campaign {
             rows.len(),
             100.0 * within
         );
-        // Weights of rows are estimated from one pair of patches of two tiles, and here all are.
+        // Weights of rows are estimated from some of their pairs.
         assert!(largest <= *tolerance, "{kind:?} {tolerance}: {largest}");
         assert!(within >= 0.95, "{kind:?} {tolerance}: {within}");
         assert!(estimate <= 4.0 * error, "{kind:?} {tolerance}");
