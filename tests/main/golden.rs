@@ -1,7 +1,7 @@
 //! Small pictures of the shipped scenes, against committed ones.
 //!
-//! `UPDATE_GOLDEN=1 cargo test -p radiosity-tests --test golden` rewrites the committed ones. A
-//! failure leaves `NAME-got.png`, `NAME-expected.png` and `NAME-difference.png` (sixteen times
+//! `UPDATE_GOLDEN=1 cargo test -p radiosity-tests --test main golden` rewrites the committed ones.
+//! A failure leaves `NAME-got.png`, `NAME-expected.png` and `NAME-difference.png` (sixteen times
 //! enlarged differences around grey) in `target/golden/`.
 
 use radiosity::geometry::Divisions;
