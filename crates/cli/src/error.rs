@@ -2,7 +2,7 @@
 
 use radiosity::Remedy;
 use radiosity::cache::{CacheError, Changed};
-use radiosity::scene::SceneError;
+use radiosity::scene::{Help, SceneError};
 use radiosity::words::grouped;
 use std::io;
 use std::path::PathBuf;
@@ -77,7 +77,8 @@ impl Error {
     pub(crate) fn report(&self) -> String {
         if let Error::Engine(radiosity::Error::Scene(error)) = self {
             // It shows the place in the file.
-            return error.to_string();
+            let help = error.help().map(scene_help);
+            return format!("error: {}", error.report(help.as_deref()));
         }
         match self.help() {
             Some(help) => format!("error: {self}\n   = help: {help}"),
@@ -93,6 +94,14 @@ impl Error {
             Error::Output { .. } => None,
             Error::Threads(_) => Some("use fewer (--threads)".to_owned()),
         }
+    }
+}
+
+/// What mends a scene or mesh file, by the flags that there are for it.
+fn scene_help(help: &Help) -> String {
+    match help {
+        Help::MeshFolder => format!("{help}: --allow-outside"),
+        _ => help.to_string(),
     }
 }
 

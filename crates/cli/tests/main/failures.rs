@@ -177,7 +177,12 @@ fn meshes_elsewhere_are_read_on_request() {
     ] {
         let (code, message) = place.fail(command);
         assert_eq!(code, 3, "{message}");
-        assert!(message.contains("--allow-outside"), "{message}");
+        let help = "= help: copy it there, or read it all the same: --allow-outside";
+        assert!(
+            message.starts_with("error: the mesh is outside"),
+            "{message}"
+        );
+        assert!(message.contains(help), "{message}");
         place.succeed(&format!("{command} --allow-outside"));
     }
 }
