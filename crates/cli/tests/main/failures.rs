@@ -217,7 +217,7 @@ fn limits_of_the_process_are_limits_of_memory() {
     let (code, message) = run(300_000, solve);
     assert_eq!(code, Some(4), "{message}");
     assert!(
-        message.contains("of memory, but only") && message.contains("= help: use fewer patches"),
+        message.contains("of memory, but only") && message.contains("into fewer patches: about"),
         "{message}"
     );
     let (code, message) = run(300_000, &solve.replace("150", "20"));
