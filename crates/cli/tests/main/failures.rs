@@ -104,11 +104,7 @@ fn runs_side_by_side_do_not_disturb_each_other() {
             scope.spawn(|| place.succeed("render room.toml --cache c"));
         }
     });
-    assert!(
-        place
-            .succeed("cache list --cache c")
-            .contains("2 artifacts")
-    );
+    assert!(place.succeed("cache list --cache c").contains("2 files"));
     assert_eq!(fs::read_dir(place.path("out")).unwrap().count(), 4);
 }
 
