@@ -20,6 +20,24 @@ use std::sync::Arc;
 mod tests;
 
 /// A folder of cached artifacts.
+///
+/// ```
+/// use radiosity_cache::{Id, Key, Store};
+///
+/// let folder = tempfile::tempdir()?;
+/// let store = Store::new(folder.path());
+/// let id = |version| Id {
+///     scene: "room",
+///     stage: "squares",
+///     key: Key::of("squares", version, &[1, 2, 3]),
+/// };
+/// store.write(&id(1), &"facts", &[1.0, 4.0, 9.0])?;
+/// let (facts, values) = store.read::<String>(&id(1))?.into_values()?;
+/// assert_eq!((facts.as_str(), values.as_ref()), ("facts", &[1.0, 4.0, 9.0][..]));
+/// // Of other inputs, or another version, there is none.
+/// assert!(store.read::<String>(&id(2)).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Store {
     folder: PathBuf,

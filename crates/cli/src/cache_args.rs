@@ -19,9 +19,9 @@ pub struct CacheCommand {
 /// What to do with the cache.
 #[derive(Clone, Copy, Debug, Subcommand)]
 pub enum CacheAction {
-    /// List the cached artifacts: stage, size, last use, file, and the scene that used it last
+    /// List the cached files: stage, size, last use, name, and the scene that used it last
     List,
-    /// Remove the cached artifacts: all, or those that --older and --keep do not spare. What another
+    /// Remove the cached files: all, or those that --older and --keep do not spare. What another
     /// process is making stays
     Clean(CleanArgs),
 }

@@ -8,7 +8,6 @@ use crate::error::Error;
 use radiosity::cache::{Amount, Cleaned, Entry, Limits, Miss, Store};
 use radiosity::words::{bytes, counted};
 
-const ARTIFACTS: [&str; 2] = ["artifact", "artifacts"];
 const FILES: [&str; 2] = ["file", "files"];
 
 pub(crate) fn run(command: &CacheCommand, site: &Site) -> Result<(), Error> {
@@ -31,10 +30,11 @@ fn list(store: &Store) -> Result<(), Error> {
     for entry in &entries {
         say(&describe(entry))?;
     }
-    let size = entries.iter().map(|entry| entry.bytes).sum();
-    let count = counted(entries.len(), ARTIFACTS);
-    let folder = store.folder().display();
-    say(&format!("{count} ({}) in {folder}", bytes(size)))
+    let all = amount(Amount {
+        files: entries.len(),
+        bytes: entries.iter().map(|entry| entry.bytes).sum(),
+    });
+    say(&format!("{all} in {}", store.folder().display()))
 }
 
 fn describe(entry: &Entry) -> String {

@@ -2,8 +2,7 @@
 
 use radiosity::Remedy;
 use radiosity::cache::{CacheError, Changed};
-use radiosity::scene::SceneError;
-use radiosity::words::grouped;
+use radiosity::scene::{Help, SceneError};
 use std::io;
 use std::path::PathBuf;
 
@@ -77,7 +76,8 @@ impl Error {
     pub(crate) fn report(&self) -> String {
         if let Error::Engine(radiosity::Error::Scene(error)) = self {
             // It shows the place in the file.
-            return error.to_string();
+            let help = error.help().map(scene_help);
+            return format!("error: {}", error.report(help.as_deref()));
         }
         match self.help() {
             Some(help) => format!("error: {self}\n   = help: {help}"),
@@ -96,29 +96,27 @@ impl Error {
     }
 }
 
-/// A remedy, by the flags that there are for it.
-fn by_flags(remedy: &Remedy) -> String {
-    match remedy {
-        Remedy::Camera => format!("{remedy}, or use `solve`"),
-        Remedy::SceneFile => format!("{remedy}, or use `form-factors`"),
-        Remedy::AccurateEstimator => "use --mode accurate".to_owned(),
-        Remedy::AccurateEstimatorOrDarker => {
-            "estimate the form factors with --mode accurate, or lower the reflectances there"
-                .to_owned()
-        }
-        Remedy::MoreSweeps => "lower the reflectances, or allow more with --max-sweeps".to_owned(),
-        Remedy::FewerPatches { fit } => {
-            let flags = "use fewer patches (--patches, or a larger --max-patch-edge or `divisions` of \
-                         surfaces)";
-            let about = |fit: u64| format!(": about {} fit", grouped(fit));
-            format!("{flags}{}", fit.map_or_else(String::new, about))
-        }
-        Remedy::SmallerPictures => format!("{remedy} (--size)"),
-        Remedy::CacheFolder => "choose another folder with --cache, or use --no-cache".to_owned(),
-        Remedy::CacheDisk => "use --no-cache, or a folder on another disk with --cache".to_owned(),
-        Remedy::RunAgain => {
-            "run the same command again, which makes anew what is damaged".to_owned()
-        }
-        _ => remedy.to_string(),
+/// What mends a scene or mesh file, by the flags that there are for it.
+fn scene_help(help: &Help) -> String {
+    match help {
+        Help::MeshFolder => format!("{help}: --allow-outside"),
+        _ => help.to_string(),
     }
+}
+
+/// A remedy, and the flags that there are for it.
+fn by_flags(remedy: &Remedy) -> String {
+    let flags = match remedy {
+        Remedy::Camera => ", or use `solve`",
+        Remedy::SceneFile => ", or use `form-factors`",
+        Remedy::AccurateEstimator | Remedy::AccurateEstimatorOrDarker => " (--mode accurate)",
+        Remedy::MoreSweeps => " (--max-sweeps)",
+        Remedy::FewerPatches { .. } => {
+            " (--patches, or a larger --max-patch-edge or `divisions` of surfaces)"
+        }
+        Remedy::SmallerPictures => " (--size)",
+        Remedy::CacheFolder | Remedy::CacheDisk => " (--cache, --no-cache)",
+        _ => "",
+    };
+    format!("{remedy}{flags}")
 }

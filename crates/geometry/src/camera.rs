@@ -6,6 +6,17 @@ use crate::ray::Ray;
 use glam::DVec3;
 
 /// A pinhole camera. The film is a rectangle at distance 1 in front of the pinhole.
+///
+/// ```
+/// use radiosity_geometry::{Camera, DVec3};
+///
+/// let (position, direction) = (DVec3::new(0.0, 0.0, 5.0), DVec3::NEG_Z);
+/// let camera = Camera::new(position, direction, DVec3::Y, 90.0, 0.0)?;
+/// // The middle of the upper edge of a picture that is twice as wide as high.
+/// let ray = camera.ray(0.5, 0.0, 2.0);
+/// assert!(ray.direction.abs_diff_eq(DVec3::new(0.0, 1.0, -1.0), 1e-15));
+/// # Ok::<(), radiosity_geometry::CameraError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     position: DVec3,

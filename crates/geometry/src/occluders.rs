@@ -13,6 +13,21 @@ use glam::DVec3;
 use radiosity_simd::dispatch;
 
 /// The undivided faces of a mesh, ready for rays. Both sides of a face block.
+///
+/// ```
+/// use radiosity_geometry::{DVec3, Divisions, Occluders, Ray, Shape, Surface, subdivide};
+///
+/// let floor = Surface {
+///     shape: Shape::Triangle([DVec3::ZERO, DVec3::X, DVec3::Y]),
+///     divisions: None,
+/// };
+/// let occluders = Occluders::new(&subdivide(&[floor], Divisions::uniform(1))?);
+/// let down = Ray::new(DVec3::new(0.2, 0.2, 3.0), DVec3::NEG_Z);
+/// let hit = occluders.closest_hit(&down, 0.0, f64::INFINITY, None).unwrap();
+/// assert_eq!((hit.t, hit.face.index(), hit.front), (3.0, 0, true));
+/// assert!(!occluders.any_hit(&down, 0.0, 2.9, None));
+/// # Ok::<(), radiosity_geometry::MeshError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Occluders {
     pub(crate) faces: Vec<Occluder>,

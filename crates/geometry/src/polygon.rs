@@ -8,6 +8,16 @@ use serde::{Deserialize, Serialize};
 ///
 /// A triangle stores its last corner twice. The repeated edge has length zero and its edge
 /// function is exactly zero, so areas, normals and ray tests need no second case.
+///
+/// ```
+/// use radiosity_geometry::{DVec3, Polygon};
+///
+/// let triangle = Polygon::triangle([DVec3::ZERO, 3.0 * DVec3::X, 2.0 * DVec3::Y]);
+/// assert_eq!(triangle.corners().len(), 3);
+/// assert_eq!(triangle.area(), 3.0);
+/// assert_eq!(triangle.normal(), DVec3::Z);
+/// assert!(triangle.centroid().abs_diff_eq(DVec3::new(1.0, 2.0 / 3.0, 0.0), 1e-15));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Polygon {
     corners: [DVec3; 4],

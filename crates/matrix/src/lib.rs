@@ -21,6 +21,17 @@ use std::sync::Arc;
 ///
 /// Stored is the strict lower triangle by rows: row `i` is the contiguous run of its entries in
 /// columns `0 .. i`. Cloning shares the numbers.
+///
+/// ```
+/// use radiosity_matrix::SymmetricMatrix;
+///
+/// // Of 3 rows: the entries (1, 0), (2, 0) and (2, 1).
+/// let matrix = SymmetricMatrix::new(3, vec![0.5, 0.25, 2.0])?;
+/// assert_eq!(matrix.get(2, 1), 2.0);
+/// assert_eq!(matrix.get(1, 2), 2.0);
+/// assert_eq!(matrix.product(&[1.0, 2.0, 4.0]), [2.0, 8.5, 4.25]);
+/// # Ok::<(), radiosity_matrix::LengthMismatch>(())
+/// ```
 #[derive(Clone)]
 pub struct SymmetricMatrix {
     size: usize,

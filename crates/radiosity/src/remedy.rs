@@ -13,7 +13,7 @@ pub enum Remedy {
     SceneFile,
     /// The accurate estimator.
     AccurateEstimator,
-    /// The accurate estimator, or lower reflectances of the surfaces that are named.
+    /// Lower reflectances of the surfaces that are named, or the accurate estimator.
     AccurateEstimatorOrDarker,
     /// Lower reflectances, or more sweeps of the solver.
     MoreSweeps,
@@ -50,7 +50,7 @@ impl Display for Remedy {
             }
             Remedy::AccurateEstimator => "use the accurate estimator",
             Remedy::AccurateEstimatorOrDarker => {
-                "use the accurate estimator, or lower the reflectances there"
+                "lower the reflectances there, or use the accurate estimator"
             }
             Remedy::MoreSweeps => "lower the reflectances, or allow more sweeps",
             Remedy::FewerPatches { fit: None } => "cut surfaces into fewer patches",

@@ -7,6 +7,7 @@
 //! This crate knows nothing of patches or form factors.
 
 mod camera;
+mod error;
 mod file;
 mod image;
 mod input;
@@ -26,11 +27,12 @@ mod vs3;
 mod tests;
 
 pub use camera::{ALL_VIEWS, FIRST_VIEW, View};
+pub use error::{Help, Place, SceneError};
 pub use image::{Exposure, Gamma, ImageSettings, Standard, Tone};
 pub use input::MeshFiles;
 pub use light::{Light, MOST_DIMMING};
 pub use material::Material;
 pub use scene::{FileKind, Scene, load, load_with, parse};
 pub use settings::{Automatic, FormFactorSettings, Mode, Relaxation, SolverMethod, SolverSettings};
-pub use source::{SceneError, suggestion};
+pub use source::suggestion;
 pub use surface::Surface;

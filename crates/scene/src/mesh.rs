@@ -1,5 +1,6 @@
 //! `mesh = { … }` of `[[surfaces]]`.
 
+use crate::error::Help;
 use crate::input;
 use crate::obj;
 use crate::signature::foreign;
@@ -28,11 +29,9 @@ impl Context<'_> {
             Err(self.source.error(table.file.span(), &complaint))
         };
         if !self.mesh_files.include(&path, self.folder) {
-            let title = "the mesh is outside of the scene's folder".to_owned();
-            return complain(
-                title,
-                "copy it there, or read it all the same: --allow-outside",
-            );
+            let title = "the mesh is outside of the scene's folder";
+            let complaint = Complaint::new(title, "this file").typed_help(Help::MeshFolder);
+            return Err(self.source.error(table.file.span(), &complaint));
         }
         let bytes = input::read(&path).map_err(|error| {
             let file = table.file.get_ref();

@@ -1,16 +1,11 @@
 //! The text of a file, and errors that point into it.
 
-use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+pub(crate) use crate::error::SceneError;
+
+use crate::error::{Help, Parts, Place};
 use std::borrow::Cow;
 use std::ops::Range;
 use std::path::Path;
-
-/// What is wrong with a scene or mesh file, where, and how to mend it, as text for people.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{report}")]
-pub struct SceneError {
-    report: String,
-}
 
 /// A file's text with the path that errors name.
 #[derive(Clone, Copy)]
@@ -26,7 +21,7 @@ pub(crate) struct Complaint {
     /// What stands under the caret.
     pub(crate) label: String,
     /// How to mend it.
-    pub(crate) help: Option<String>,
+    pub(crate) help: Option<Help>,
 }
 
 /// Bytes of text that are printed at once; names in files may have millions.
@@ -51,8 +46,12 @@ impl Complaint {
         }
     }
 
-    pub(crate) fn help(mut self, help: impl Into<String>) -> Complaint {
-        self.help = Some(help.into());
+    pub(crate) fn help(self, help: impl Into<String>) -> Complaint {
+        self.typed_help(Help::Words(help.into()))
+    }
+
+    pub(crate) fn typed_help(mut self, help: Help) -> Complaint {
+        self.help = Some(help);
         self
     }
 
@@ -89,7 +88,6 @@ pub fn suggestion<'n>(
 impl Source<'_> {
     /// An error at a range of bytes of the text.
     pub(crate) fn error(&self, span: Range<usize>, complaint: &Complaint) -> SceneError {
-        let path = self.path.display().to_string();
         let span = span.start
             ..span
                 .end
@@ -99,22 +97,22 @@ impl Source<'_> {
         let start = before.rfind('\n').map_or(0, |at| at + 1);
         let after = &after[..after.floor_char_boundary(MOST_TEXT)];
         let end = span.end + after.find('\n').unwrap_or(after.len());
-        let annotation = AnnotationKind::Primary
-            .span(span.start - start..span.end - start)
-            .label(shortened(&complaint.label));
-        let snippet = Snippet::source(&self.text[start..end])
-            .line_start(1 + before.matches('\n').count())
-            .path(path.as_str())
-            .annotation(annotation);
-        let mut group = Level::ERROR
-            .primary_title(shortened(&complaint.title))
-            .element(snippet);
-        if let Some(help) = &complaint.help {
-            group = group.element(Level::HELP.message(shortened(help)));
-        }
-        SceneError {
-            report: Renderer::plain().render(&[group]),
-        }
+        let place = Place {
+            line: 1 + before.matches('\n').count(),
+            column: 1 + before[start..].chars().count(),
+            text: self.text[start..end].to_owned(),
+            marked: span.start - start..span.end - start,
+        };
+        SceneError::from(Parts {
+            title: shortened(&complaint.title).into_owned(),
+            label: shortened(&complaint.label).into_owned(),
+            path: self.path.to_owned(),
+            place: Some(place),
+            help: complaint.help.clone().map(|help| match help {
+                Help::Words(words) => Help::Words(shortened(&words).into_owned()),
+                Help::MeshFolder => help,
+            }),
+        })
     }
 
     /// An error in a whole line, counted from 1.
@@ -133,9 +131,12 @@ impl Source<'_> {
 impl SceneError {
     /// An error of a whole file.
     pub(crate) fn of_file(path: &Path, title: &str, help: &str) -> SceneError {
-        let (path, title) = (path.display(), shortened(title));
-        SceneError {
-            report: format!("error: {title}\n  --> {path}\n   = help: {help}"),
-        }
+        SceneError::from(Parts {
+            title: shortened(title).into_owned(),
+            label: String::new(),
+            path: path.to_owned(),
+            place: None,
+            help: Some(Help::Words(help.to_owned())),
+        })
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! Long because: one table of all mistakes.
 
+mod errors;
 mod files;
 mod meshes;
 mod names;

@@ -1,6 +1,9 @@
 //! Whenever the command is killed, and whatever the disk refuses: what was kept is used, and the
 //! artifact has the same bytes in the end.
 
+#[cfg(unix)]
+mod signals;
+
 use crate::place::Place;
 use std::fs;
 use std::path::PathBuf;
@@ -63,6 +66,14 @@ fn checkpoint_after(last: Option<SystemTime>, place: &Place, run: &mut Child) ->
     false
 }
 
+/// Kills a run of a new place after its first checkpoint.
+fn kill_after_checkpoint(place: &Place) {
+    let mut run = start(place);
+    assert!(checkpoint_after(None, place, &mut run));
+    run.kill().unwrap();
+    run.wait().unwrap();
+}
+
 #[test]
 fn killed_runs_go_on_where_they_were() {
     let _alone = ALONE.lock();
@@ -104,10 +115,7 @@ fn killed_runs_go_on_where_they_were() {
 fn killed_runs_go_on_under_another_name() {
     let _alone = ALONE.lock();
     let place = Place::new();
-    let mut run = start(&place);
-    assert!(checkpoint_after(None, &place, &mut run));
-    run.kill().unwrap();
-    run.wait().unwrap();
+    kill_after_checkpoint(&place);
     let (scene, rest) = LONG.split_once(" --patches").unwrap();
     let scene = scene.strip_prefix("form-factors ").unwrap();
     fs::copy(scene, place.path("renamed.toml")).unwrap();
@@ -198,10 +206,7 @@ fn a_cache_that_vanishes_costs_the_artifact_and_no_result() {
 fn what_is_not_gone_on_with_is_named() {
     let _alone = ALONE.lock();
     let place = Place::new();
-    let mut run = start(&place);
-    assert!(checkpoint_after(None, &place, &mut run));
-    run.kill().unwrap();
-    run.wait().unwrap();
+    kill_after_checkpoint(&place);
     let mut files = fs::read_dir(place.path("c")).unwrap();
     let is_journal = |path: &PathBuf| path.extension().is_some_and(|e| e == "journal");
     let journal = files.find_map(|file| Some(file.unwrap().path()).filter(is_journal));
@@ -214,73 +219,11 @@ fn what_is_not_gone_on_with_is_named() {
     assert!(fs::read(artifact(&place).unwrap()).unwrap() == *undisturbed());
 }
 
-/// What is being written in a place, beside what is cached.
-#[cfg(unix)]
-fn unfinished(place: &Place) -> usize {
-    let files = fs::read_dir(place.path(".")).unwrap();
-    let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
-    names.filter(|name| name.ends_with(".partial")).count()
-}
-
-/// A large result of cached form factors, interrupted by a signal while it is written.
-#[cfg(unix)]
-fn interrupted_by(signal: i32) -> Place {
-    use std::os::unix::process::ExitStatusExt;
-    let _alone = ALONE.lock();
-    let place = Place::new();
-    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/cornell.toml");
-    let work = format!("form-factors {scene} --patches 14 --mode regular --points 1 --cache c");
-    place.succeed(&work);
-    for _ in 0..20 {
-        let mut run = Command::new(env!("CARGO_BIN_EXE_radiosity"))
-            .args(format!("{work} --export f.csv").split(' '))
-            .current_dir(place.path("."))
-            .stdout(Stdio::null())
-            .spawn()
-            .unwrap();
-        while unfinished(&place) == 0 && run.try_wait().unwrap().is_none() {
-            sleep(Duration::from_millis(1));
-        }
-        let kill = format!("kill -{signal} {}", run.id());
-        let _ = Command::new("sh").args(["-c", &kill]).status();
-        if run.wait().unwrap().signal() == Some(signal) {
-            return place;
-        }
-        // It was over already.
-        fs::remove_file(place.path("f.csv")).unwrap();
-    }
-    panic!("signal {signal} ends no run; the shell that runs the tests may ignore it");
-}
-
-#[test]
-#[cfg(unix)]
-fn signals_leave_no_half_results() {
-    for signal in [2, 15] {
-        let place = interrupted_by(signal);
-        assert_eq!(unfinished(&place), 0, "signal {signal}");
-        assert!(!place.path("f.csv").exists());
-    }
-}
-
-#[test]
-#[cfg(unix)]
-fn half_results_of_killed_runs_are_removed_by_the_next() {
-    let place = interrupted_by(9);
-    assert_eq!(unfinished(&place), 1);
-    place.write("f.csv.partial", "the user's own");
-    place.succeed("solve room.toml --no-cache --export other.csv");
-    assert_eq!(unfinished(&place), 1);
-    assert!(place.path("f.csv.partial").exists());
-}
-
 #[test]
 fn recomputing_begins_anew() {
     let _alone = ALONE.lock();
     let place = Place::new();
-    let mut run = start(&place);
-    assert!(checkpoint_after(None, &place, &mut run));
-    run.kill().unwrap();
-    run.wait().unwrap();
+    kill_after_checkpoint(&place);
     let (code, _, stderr) = place.run(&format!("{LONG} --recompute"));
     assert_eq!(code, 0);
     assert!(!stderr.contains("interrupted"), "{stderr}");
