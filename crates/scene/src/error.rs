@@ -16,13 +16,13 @@ pub(crate) struct Parts {
     pub(crate) title: String,
     pub(crate) label: String,
     pub(crate) path: PathBuf,
-    pub(crate) place: Option<Place>,
+    pub(crate) place: Option<FilePlace>,
     pub(crate) help: Option<Help>,
 }
 
 /// A place in the text of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct FilePlace {
     /// The number of the line, from 1.
     pub line: usize,
     /// The number of the character in the line, from 1.
@@ -70,7 +70,7 @@ impl SceneError {
     }
 
     /// Where in the file. There is none if the whole file is wrong.
-    pub fn place(&self) -> Option<&Place> {
+    pub fn place(&self) -> Option<&FilePlace> {
         self.0.place.as_ref()
     }
 

@@ -27,7 +27,7 @@ mod vs3;
 mod tests;
 
 pub use camera::{ALL_VIEWS, FIRST_VIEW, View};
-pub use error::{Help, Place, SceneError};
+pub use error::{FilePlace, Help, SceneError};
 pub use image::{Exposure, Gamma, ImageSettings, Standard, Tone};
 pub use input::MeshFiles;
 pub use light::{Light, MOST_DIMMING};

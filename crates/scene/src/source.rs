@@ -2,7 +2,7 @@
 
 pub(crate) use crate::error::SceneError;
 
-use crate::error::{Help, Parts, Place};
+use crate::error::{FilePlace, Help, Parts};
 use std::borrow::Cow;
 use std::ops::Range;
 use std::path::Path;
@@ -97,7 +97,7 @@ impl Source<'_> {
         let start = before.rfind('\n').map_or(0, |at| at + 1);
         let after = &after[..after.floor_char_boundary(MOST_TEXT)];
         let end = span.end + after.find('\n').unwrap_or(after.len());
-        let place = Place {
+        let place = FilePlace {
             line: 1 + before.matches('\n').count(),
             column: 1 + before[start..].chars().count(),
             text: self.text[start..end].to_owned(),
