@@ -3,10 +3,14 @@
 //! Long because: one test for each reason to compute anew.
 
 use radiosity::cache::{Limits, Store};
+use radiosity::form_factors::Mode;
 use radiosity::geometry::{Camera, DVec3, Divisions};
-use radiosity::scene::{Exposure, Material, Mode, Scene};
+use radiosity::image::{Exposure, Image};
+use radiosity::scene::{Material, Scene};
 use radiosity::solver::Solution;
-use radiosity::{How, Observer, Pipeline, Silent, Solved, Sources, Stage};
+use radiosity::{
+    Context, How, Observer, Origin, Project, Stage, estimate, render, solve, solve_anew, subdivide,
+};
 use radiosity_tests::{BOTH, shipped};
 use std::fs;
 use std::path::PathBuf;
@@ -16,7 +20,41 @@ use tempfile::TempDir;
 /// A scene with a cache folder of its own.
 struct Bench {
     folder: TempDir,
-    scene: Scene,
+    project: Project,
+}
+
+/// What came of a run.
+struct Outcome {
+    solution: Solution,
+    origin: Origin,
+    form_factors: Origin,
+    pictures: Vec<Image>,
+}
+
+impl Outcome {
+    fn of(project: &Project, cache: Option<&Store>) -> Outcome {
+        Outcome::in_context(
+            project,
+            Context {
+                cache,
+                ..Context::default()
+            },
+        )
+    }
+
+    fn in_context(project: &Project, context: Context<'_>) -> Outcome {
+        let Project { scene, params, .. } = project;
+        let patches = subdivide(scene, &params.discretization, context).unwrap();
+        let factors = estimate(&patches, &params.form_factors).unwrap();
+        let solved = solve(&factors, &params.solver).unwrap();
+        let (light, camera) = (solved.light().unwrap(), scene.camera.unwrap());
+        Outcome {
+            pictures: render(&patches, &light, &camera, &params.image, &BOTH).unwrap(),
+            solution: solved.solution,
+            origin: solved.origin,
+            form_factors: solved.form_factors,
+        }
+    }
 }
 
 /// Why form factors and solution were computed; `None` where they were not.
@@ -25,11 +63,11 @@ type Reasons = (Option<String>, Option<String>);
 impl Bench {
     /// With everything cached.
     fn warm() -> Bench {
-        let mut scene = shipped("cornell");
-        scene.divisions = Divisions::uniform(3);
+        let mut project = shipped("cornell");
+        project.params.discretization.default = Divisions::uniform(3);
         let bench = Bench {
             folder: TempDir::new().unwrap(),
-            scene,
+            project,
         };
         bench.solve();
         bench
@@ -39,35 +77,33 @@ impl Bench {
         Store::new(self.folder.path())
     }
 
-    fn solve(&self) -> Solved {
-        self.solve_scene(&self.scene)
+    fn solve(&self) -> Outcome {
+        self.solve_project(&self.project)
     }
 
-    fn solve_scene(&self, scene: &Scene) -> Solved {
-        let store = self.store();
-        let pipeline = Pipeline::new(scene, Some(&store), &Silent).unwrap();
-        pipeline.solution(Sources::Cached).unwrap()
+    fn solve_project(&self, project: &Project) -> Outcome {
+        Outcome::of(project, Some(&self.store()))
     }
 
     fn reasons(&self) -> Reasons {
-        self.reasons_as(&self.scene.name)
+        self.reasons_as(&self.project.scene.name)
     }
 
     /// With the scene under this name.
     fn reasons_as(&self, name: &str) -> Reasons {
-        let mut scene = self.scene.clone();
-        scene.name = name.to_owned();
-        let solved = self.solve_scene(&scene);
+        let mut project = self.project.clone();
+        project.scene.name = name.to_owned();
+        let solved = self.solve_project(&project);
         (
             solved.form_factors.reason().map(str::to_owned),
             solved.origin.reason().map(str::to_owned),
         )
     }
 
-    /// The reasons after a change of the scene.
-    fn after(change: impl FnOnce(&mut Scene)) -> Reasons {
+    /// The reasons after a change.
+    fn after(change: impl FnOnce(&mut Project)) -> Reasons {
         let mut bench = Bench::warm();
-        change(&mut bench.scene);
+        change(&mut bench.project);
         bench.reasons()
     }
 
@@ -104,20 +140,15 @@ fn changed_both() -> Reasons {
 #[test]
 fn a_cold_run_equals_a_warm_one_byte_for_byte() {
     let bench = Bench::warm();
-    let render = |cache: Option<&Store>| {
-        let pipeline = Pipeline::new(&bench.scene, cache, &Silent).unwrap();
-        let solved = pipeline.solution(Sources::Cached).unwrap();
-        let pictures = pipeline.pictures(&solved.light, &BOTH).unwrap();
-        (solved.solution, pictures)
-    };
-    let cold: (Solution, _) = render(None);
-    let warm = render(Some(&bench.store()));
-    assert_eq!(cold, warm);
+    let cold = Outcome::of(&bench.project, None);
+    let warm = Outcome::of(&bench.project, Some(&bench.store()));
+    assert_eq!(cold.solution, warm.solution);
+    assert_eq!(cold.pictures, warm.pictures);
     // Solving from cached form factors gives the same bytes too.
     fs::remove_file(bench.file("solution")).unwrap();
     let solved = bench.solve();
     assert_eq!(solved.form_factors.reason(), None);
-    assert_eq!(solved.solution, cold.0);
+    assert_eq!(solved.solution, cold.solution);
     // And so do files: a second cold run writes the same ones.
     let other = Bench::warm();
     for stage in ["form-factors", "solution"] {
@@ -137,37 +168,37 @@ fn the_first_run_computes_and_the_second_does_not() {
 
 #[test]
 fn pictures_depend_on_no_artifact_key() {
-    assert_eq!(Bench::after(|s| s.image.width = 99), none());
+    assert_eq!(Bench::after(|p| p.params.image.width = 99), none());
     assert_eq!(
-        Bench::after(|s| s.image.exposure = Exposure::Factor(2.0)),
+        Bench::after(|p| p.params.image.exposure = Exposure::Fixed(2.0)),
         none()
     );
-    assert_eq!(Bench::after(|s| s.image.samples = 1), none());
+    assert_eq!(Bench::after(|p| p.params.image.samples = 1), none());
     let camera = Camera::new(DVec3::ZERO, DVec3::Z, DVec3::Y, 40.0, 0.0).unwrap();
-    assert_eq!(Bench::after(|s| s.camera = Some(camera)), none());
+    assert_eq!(Bench::after(|p| p.scene.camera = Some(camera)), none());
 }
 
 #[test]
 fn names_depend_on_no_artifact_key() {
     assert_eq!(
-        Bench::after(|s| s.surfaces[0].name = "elsewhere".to_owned()),
+        Bench::after(|p| p.scene.surfaces[0].name = "elsewhere".to_owned()),
         none()
     );
     assert_eq!(
-        Bench::after(|s| s.materials[0].name = "renamed".to_owned()),
+        Bench::after(|p| p.scene.materials[0].name = "renamed".to_owned()),
         none()
     );
 }
 
 #[test]
 fn the_scenes_name_depends_on_no_artifact_key() {
-    assert_eq!(Bench::after(|s| s.name = "copy".to_owned()), none());
+    assert_eq!(Bench::after(|p| p.scene.name = "copy".to_owned()), none());
 }
 
 #[test]
 fn a_changed_reflectance_needs_a_solution() {
     assert_eq!(
-        Bench::after(|s| s.materials[0].reflectance[1] = 0.5),
+        Bench::after(|p| p.scene.materials[0].reflectance[1] = 0.5),
         changed_solution()
     );
 }
@@ -175,7 +206,7 @@ fn a_changed_reflectance_needs_a_solution() {
 #[test]
 fn a_changed_emission_needs_a_solution() {
     assert_eq!(
-        Bench::after(|s| lamp(s).emission[1] = 0.5),
+        Bench::after(|p| lamp(&mut p.scene).emission[1] = 0.5),
         changed_solution()
     );
 }
@@ -187,10 +218,10 @@ fn lamp(scene: &mut Scene) -> &mut Material {
 
 #[test]
 fn dimmed_lights_need_nothing() {
-    assert_eq!(Bench::after(|s| s.lights[0].dim = 0.5), none());
-    assert_eq!(Bench::after(|s| s.lights[0].tint[2] = 7.0), none());
+    assert_eq!(Bench::after(|p| p.scene.lights[0].dim = 0.5), none());
+    assert_eq!(Bench::after(|p| p.scene.lights[0].tint[2] = 7.0), none());
     assert_eq!(
-        Bench::after(|s| s.lights[0].name = "renamed".to_owned()),
+        Bench::after(|p| p.scene.lights[0].name = "renamed".to_owned()),
         none()
     );
 }
@@ -198,60 +229,66 @@ fn dimmed_lights_need_nothing() {
 #[test]
 fn a_changed_solver_setting_needs_a_solution() {
     assert_eq!(
-        Bench::after(|s| s.solver.tolerance = 1e-4),
+        Bench::after(|p| p.params.solver.residual = 1e-4),
         changed_solution()
     );
     assert_eq!(
-        Bench::after(|s| s.solver.max_sweeps = 3),
+        Bench::after(|p| p.params.solver.max_sweeps = 3),
         changed_solution()
     );
 }
 
 #[test]
 fn a_changed_shape_needs_everything() {
-    let change = |s: &mut Scene| s.geometry.swap(0, 1);
+    let change = |p: &mut Project| p.scene.surfaces.swap(0, 1);
     assert_eq!(Bench::after(change), changed_both());
 }
 
 #[test]
 fn a_changed_subdivision_needs_everything() {
     assert_eq!(
-        Bench::after(|s| s.divisions = Divisions::uniform(2)),
+        Bench::after(|p| p.params.discretization.default = Divisions::uniform(2)),
         changed_both()
     );
 }
 
 #[test]
 fn a_changed_estimator_needs_everything() {
-    assert_eq!(Bench::after(|s| s.form_factors.points = 2), changed_both());
     assert_eq!(
-        Bench::after(|s| s.form_factors.mode = Mode::MonteCarlo),
+        Bench::after(|p| p.params.form_factors.points = 2),
+        changed_both()
+    );
+    assert_eq!(
+        Bench::after(|p| p.params.form_factors.mode = Mode::MonteCarlo),
         changed_both()
     );
 }
 
 #[test]
 fn settings_that_the_estimator_ignores_need_nothing() {
-    assert_eq!(Bench::after(|s| s.form_factors.seed = 7), none());
-    assert_eq!(Bench::after(|s| s.form_factors.pairs = Some(7)), none());
+    assert_eq!(Bench::after(|p| p.params.form_factors.seed = 7), none());
+    assert_eq!(
+        Bench::after(|p| p.params.form_factors.pairs = Some(7)),
+        none()
+    );
 }
 
 #[test]
 fn a_seed_matters_to_monte_carlo() {
     let mut bench = Bench::warm();
-    bench.scene.form_factors.mode = Mode::MonteCarlo;
+    bench.project.params.form_factors.mode = Mode::MonteCarlo;
     bench.solve();
-    bench.scene.form_factors.seed = 7;
+    bench.project.params.form_factors.seed = 7;
     assert_eq!(bench.reasons(), changed_both());
 }
 
 #[test]
 fn changing_back_finds_the_old_files() {
     let mut bench = Bench::warm();
-    bench.scene.materials[0].reflectance[1] = 0.5;
+    bench.project.scene.materials[0].reflectance[1] = 0.5;
     bench.solve();
     let original = shipped("cornell");
-    bench.scene.materials = original.materials;
+    bench.project.scene.materials = original.scene.materials;
     assert_eq!(bench.reasons(), none());
 }
 
@@ -290,19 +327,14 @@ fn damage_is_noticed_named_and_mended() {
 fn a_file_with_another_key_is_not_believed() {
     let mut bench = Bench::warm();
     let (here, good) = (bench.file("form-factors"), bench.solve().solution);
-    bench.scene.form_factors.points = 2;
+    bench.project.params.form_factors.points = 2;
     let other = TempDir::new().unwrap();
     let store = Store::new(other.path());
-    let pipeline = Pipeline::new(&bench.scene, Some(&store), &Silent).unwrap();
-    let impostor = pipeline
-        .form_factors(Sources::Cached)
-        .unwrap()
-        .origin
-        .file
-        .unwrap();
+    let impostor = Outcome::of(&bench.project, Some(&store));
+    let impostor = impostor.form_factors.file.unwrap();
     fs::rename(impostor, here).unwrap();
     fs::remove_file(bench.file("solution")).unwrap();
-    bench.scene.form_factors.points = 3;
+    bench.project.params.form_factors.points = 3;
     let solved = bench.solve();
     let because = solved.form_factors.reason();
     assert_eq!(because, Some("the cached file belongs to another key"));
@@ -324,11 +356,18 @@ fn losing_the_form_factors_costs_nothing_while_the_solution_stands() {
 fn recomputing_on_demand_says_so() {
     let bench = Bench::warm();
     let store = bench.store();
-    let pipeline = Pipeline::new(&bench.scene, Some(&store), &Silent).unwrap();
-    let solved = pipeline.solution(Sources::Computed).unwrap();
+    let context = Context {
+        cache: Some(&store),
+        ..Context::default()
+    };
+    let Project { scene, params, .. } = &bench.project;
+    let patches = subdivide(scene, &params.discretization, context).unwrap();
+    let factors = estimate(&patches, &params.form_factors).unwrap();
+    let solved = solve_anew(&factors, &params.solver).unwrap();
     assert_eq!(solved.origin.reason(), Some("asked for"));
     assert_eq!(solved.form_factors.reason(), None);
-    let made = pipeline.form_factors(Sources::Computed).unwrap();
+    let others = estimate(&patches, &params.form_factors).unwrap();
+    let made = others.made_anew().unwrap();
     assert_eq!(made.origin.reason(), Some("asked for"));
 }
 
@@ -352,8 +391,11 @@ fn a_cache_that_cannot_be_written_costs_a_note() {
     fs::write(&file, b"").unwrap();
     let store = Store::new(&file);
     let notes = Notes::default();
-    let pipeline = Pipeline::new(&bench.scene, Some(&store), &notes).unwrap();
-    let solved = pipeline.solution(Sources::Cached).unwrap();
+    let context = Context {
+        cache: Some(&store),
+        observer: &notes,
+    };
+    let solved = Outcome::in_context(&bench.project, context);
     assert_eq!(solved.solution, bench.solve().solution);
     let notes = notes.0.into_inner().unwrap();
     assert!(

@@ -1,19 +1,33 @@
 //! Closed form factors are an artifact of their own.
 
 use radiosity::cache::Store;
+use radiosity::form_factors::{FormFactors, Mode};
 use radiosity::geometry::Divisions;
-use radiosity::scene::{Mode, Scene};
-use radiosity::{How, Pipeline, Silent, Sources};
+use radiosity::stages::{Factors, FormFactorsMade};
+use radiosity::{Context, How, Origin, Project, RowSummary, estimate, solve, subdivide};
 use radiosity_tests::shipped;
 use std::path::Path;
 use tempfile::TempDir;
 
-fn scene(closure: bool) -> Scene {
-    let mut scene = shipped("cornell-closed");
-    scene.divisions = Divisions::uniform(4);
-    scene.form_factors.mode = Mode::Accurate;
-    scene.form_factors.closure = closure;
-    scene
+fn project(closure: bool) -> Project {
+    let mut project = shipped("cornell-closed");
+    project.params.discretization.default = Divisions::uniform(4);
+    project.params.form_factors.mode = Mode::Accurate;
+    project.params.form_factors.closure = closure;
+    project
+}
+
+struct Made {
+    form_factors: FormFactors,
+    rows: RowSummary,
+    origin: Origin,
+}
+
+fn in_cache(cache: Option<&Store>) -> Context<'_> {
+    Context {
+        cache,
+        ..Context::default()
+    }
 }
 
 /// The names of artifacts.
@@ -27,10 +41,24 @@ fn names(folder: &TempDir) -> Vec<String> {
 fn closing_leaves_what_was_estimated_alone() {
     let folder = TempDir::new().unwrap();
     let store = Store::new(folder.path());
-    let (raw, closed) = (scene(false), scene(true));
-    let made = |scene: &Scene, store: Option<&Store>| {
-        let pipeline = Pipeline::new(scene, store, &Silent).unwrap();
-        pipeline.form_factors(Sources::Cached).unwrap()
+    let (raw, closed) = (project(false), project(true));
+    let made = |project: &Project, cache: Option<&Store>| {
+        let made = |factors: Factors<'_>| {
+            let FormFactorsMade {
+                form_factors,
+                rows,
+                origin,
+            } = factors.made().unwrap();
+            Made {
+                form_factors: form_factors.clone(),
+                rows: rows.clone(),
+                origin: origin.clone(),
+            }
+        };
+        let context = in_cache(cache);
+        let Project { scene, params, .. } = project;
+        let patches = subdivide(scene, &params.discretization, context).unwrap();
+        made(estimate(&patches, &params.form_factors).unwrap())
     };
     let first = made(&raw, Some(&store));
     let second = made(&closed, Some(&store));
@@ -42,7 +70,7 @@ fn closing_leaves_what_was_estimated_alone() {
     assert_eq!(made(&closed, Some(&store)).origin.how, How::Cached);
     assert_eq!(names(&folder).len(), 2);
     assert!(first.rows.closure.is_none() && second.rows.closure.is_some());
-    let values = |made: &radiosity::FormFactorsMade| made.form_factors.exchange.values().to_vec();
+    let values = |made: &Made| made.form_factors.exchange.values().to_vec();
     assert_ne!(values(&first), values(&second));
     // With and without a file, and read again: the same.
     let in_memory = made(&closed, None);
@@ -58,9 +86,11 @@ fn solutions_of_closed_factors_have_keys_of_their_own() {
     let folder = TempDir::new().unwrap();
     let store = Store::new(folder.path());
     for closure in [false, true] {
-        let scene = scene(closure);
-        let pipeline = Pipeline::new(&scene, Some(&store), &Silent).unwrap();
-        let solved = pipeline.solution(Sources::Cached).unwrap();
+        let Project { scene, params, .. } = project(closure);
+        let context = in_cache(Some(&store));
+        let patches = subdivide(&scene, &params.discretization, context).unwrap();
+        let factors = estimate(&patches, &params.form_factors).unwrap();
+        let solved = solve(&factors, &params.solver).unwrap();
         assert!(!solved.origin.is_cached());
     }
     let names = names(&folder);

@@ -1,10 +1,10 @@
 //! Where the power goes, against rays that know nothing of form factors.
 
-use radiosity::geometry::{DVec3, Occluders, Patch, Polygon, Ray};
-use radiosity::scene::Mode;
+use radiosity::form_factors::Mode;
+use radiosity::geometry::{DVec3, Mesh, Occluders, Patch, Polygon, Ray};
 use radiosity::solver::Energy;
-use radiosity::{PatchLight, Pipeline, Solved, Sources};
-use radiosity_tests::{pipeline, shipped, solve};
+use radiosity::stages::PatchLight;
+use radiosity_tests::{Chain, shipped};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::f64::consts::TAU;
@@ -23,8 +23,7 @@ struct Shares {
 
 /// From patches in proportion to the power that would leave them if nothing of them were hidden, in
 /// the direction of diffuse light. What hidden parts would send to backs does not count.
-fn traced(pipeline: &Pipeline<'_>, light: &PatchLight) -> Shares {
-    let mesh = pipeline.mesh();
+fn traced(mesh: &Mesh, light: &PatchLight) -> Shares {
     let radiosity = &light.radiosity;
     let occluders = Occluders::new(mesh);
     let mut ends = Vec::new();
@@ -44,7 +43,7 @@ fn traced(pipeline: &Pipeline<'_>, light: &PatchLight) -> Shares {
         let what = hit.map_or(2, |hit| usize::from(!hit.front));
         counts[what] += 1;
     }
-    let leaving = leaving(pipeline, light);
+    let leaving = leaving(mesh, light);
     let of_leaving = |count| power / leaving * f64::from(count) / f64::from(RAYS);
     let [fronts, backs, background] = counts.map(of_leaving);
     Shares {
@@ -55,9 +54,9 @@ fn traced(pipeline: &Pipeline<'_>, light: &PatchLight) -> Shares {
 }
 
 /// The power that leaves all patches; those that are hidden in part emit nothing in these scenes.
-fn leaving(pipeline: &Pipeline<'_>, light: &PatchLight) -> f64 {
-    let means = pipeline.mean_radiosity(light);
-    let patches = pipeline.mesh().patches.iter().zip(&means);
+fn leaving(mesh: &Mesh, light: &PatchLight) -> f64 {
+    let means = light.mean_radiosity();
+    let patches = mesh.patches.iter().zip(&means);
     patches
         .map(|(patch, b)| patch.area * f64::from(b[GREEN]))
         .sum()
@@ -85,14 +84,14 @@ fn direction(normal: DVec3, rng: &mut Pcg64Mcg) -> DVec3 {
 }
 
 /// What the report says, as shares of the power that leaves all patches.
-fn reported(pipeline: &Pipeline<'_>, solved: &Solved) -> Shares {
-    let power = leaving(pipeline, &solved.light);
+fn reported(mesh: &Mesh, light: &PatchLight) -> Shares {
+    let power = leaving(mesh, light);
     let Energy {
         emitted,
         absorbed,
         to_backs,
         to_background,
-    } = solved.energy;
+    } = light.energy;
     Shares {
         // What arrives at fronts is absorbed there, or leaves them again: it is all that leaves but
         // what was emitted.
@@ -105,12 +104,11 @@ fn reported(pipeline: &Pipeline<'_>, solved: &Solved) -> Shares {
 /// What the rows make of the power that leaves all patches: the standard error of what they say of
 /// backs and background, whose errors are independent, and the most that the errors of factors add
 /// up to.
-fn errors_of_rows(pipeline: &Pipeline<'_>, light: &PatchLight) -> [f64; 2] {
-    let rows = pipeline.form_factors(Sources::Cached).unwrap();
-    let rows = rows.form_factors.rows.iter();
-    let means = pipeline.mean_radiosity(light);
+fn errors_of_rows(chain: Chain, light: &PatchLight) -> [f64; 2] {
+    let rows = chain.made().form_factors.rows.iter();
+    let means = light.mean_radiosity();
     let (mut of_rays, mut of_factors) = (0.0, 0.0);
-    for ((patch, b), row) in pipeline.mesh().patches.iter().zip(&means).zip(rows) {
+    for ((patch, b), row) in chain.patches.mesh.patches.iter().zip(&means).zip(rows) {
         let power = patch.area * f64::from(b[GREEN]);
         of_rays += (power * row.rays_error).powi(2);
         of_factors += power * row.error.unwrap();
@@ -121,18 +119,15 @@ fn errors_of_rows(pipeline: &Pipeline<'_>, light: &PatchLight) -> [f64; 2] {
 #[test]
 fn power_arrives_where_rays_do() {
     for name in ["cornell", "cornell-closed", "cornell-triangles", "furnace"] {
-        let mut scene = shipped(name);
-        scene.form_factors.mode = Mode::Accurate;
-        let pipeline = pipeline(&scene);
-        let solved = solve(&pipeline);
-        assert!(solved.solution.report.converged, "{name}");
-        let (found, expected) = (
-            reported(&pipeline, &solved),
-            traced(&pipeline, &solved.light),
-        );
+        let mut project = shipped(name);
+        project.params.form_factors.mode = Mode::Accurate;
+        let chain = Chain::of(&project);
+        assert!(chain.solve().solution.report.converged, "{name}");
+        let (mesh, light) = (&chain.patches.mesh, chain.light());
+        let (found, expected) = (reported(mesh, &light), traced(mesh, &light));
         println!("{name}: {found:?}, by rays {expected:?}");
-        let leaving = leaving(&pipeline, &solved.light);
-        let [of_rays, of_factors] = errors_of_rows(&pipeline, &solved.light);
+        let leaving = leaving(mesh, &light);
+        let [of_rays, of_factors] = errors_of_rows(chain, &light);
         for (found, expected) in [
             (found.fronts, expected.fronts),
             (found.backs, expected.backs),
@@ -143,12 +138,11 @@ fn power_arrives_where_rays_do() {
             let most = 4.0 * noise.hypot(of_rays / leaving) + of_factors / leaving;
             assert!((found - expected).abs() <= most, "{name}: {most}");
         }
-        let emitted = solved.energy.emitted[GREEN];
+        let emitted = light.energy.emitted[GREEN];
         let most = (4.0 * of_rays + of_factors) / emitted;
-        let imbalance = solved.energy.missing()[GREEN].abs() / emitted;
+        let imbalance = light.energy.missing()[GREEN].abs() / emitted;
         println!("{name}: {imbalance:.1e} of the emission is missing, {most:.1e} may be");
         assert!(imbalance <= most, "{name}");
-        let rows = pipeline.form_factors(Sources::Cached).unwrap().rows;
-        assert_eq!(rows.excessive, 0, "{name}");
+        assert_eq!(chain.made().rows.excessive, 0, "{name}");
     }
 }

@@ -6,7 +6,8 @@
 
 use radiosity::geometry::Divisions;
 use radiosity::image::{PictureFormat, Rgb8Image, ToneMap, Transfer, encode};
-use radiosity_tests::{BOTH, in_checkout, pipeline, shipped, solve};
+use radiosity::params::NumberOrWord;
+use radiosity_tests::{BOTH, Chain, in_checkout, shipped};
 use std::path::Path;
 
 /// Levels out of 255. Pictures are the same to the bit on one machine; elsewhere the sines and
@@ -16,20 +17,23 @@ const TOLERANCE: i32 = 1;
 const TRANSFER: Transfer = Transfer::Gamma(2.2);
 
 fn check(scene: &str, divisions: u32, points: u32) {
-    let mut scene = shipped(scene);
-    scene.divisions = Divisions::uniform(divisions);
-    scene.form_factors.points = points;
-    (scene.image.width, scene.image.height) = (96, 72);
-    let pipeline = pipeline(&scene);
-    let light = &solve(&pipeline).light;
-    let pictures = pipeline.pictures(light, &BOTH).unwrap();
-    let exposure = scene.image.exposure.factor().unwrap();
+    let mut project = shipped(scene);
+    project.params.discretization.default = Divisions::uniform(divisions);
+    project.params.form_factors.points = points;
+    (project.params.image.width, project.params.image.height) = (96, 72);
+    let chain = Chain::of(&project);
+    let light = &chain.light();
+    let pictures = chain.pictures(light, &BOTH);
+    let exposure = project.params.image.exposure.number().unwrap();
     let tone = ToneMap::clamped(exposure, TRANSFER);
     compare(
-        &format!("{}-constant", scene.name),
+        &format!("{}-constant", project.scene.name),
         &tone.apply(&pictures[0]),
     );
-    compare(&format!("{}-smooth", scene.name), &tone.apply(&pictures[1]));
+    compare(
+        &format!("{}-smooth", project.scene.name),
+        &tone.apply(&pictures[1]),
+    );
 }
 
 fn compare(name: &str, got: &Rgb8Image) {

@@ -1,8 +1,9 @@
 //! The oracle against the reference data: two path tracers that share no line of code.
 
-use radiosity::cells;
-use radiosity::geometry::{Divisions, PixelFilter, subdivide};
+use radiosity::geometry::{Discretization, PixelFilter};
+use radiosity::params::NumberOrWord;
 use radiosity::reference::{TracedPicture, Tracer, cell_means};
+use radiosity::{Context, cells, subdivide};
 use radiosity_tests::{radiance, reference_table, shipped};
 use std::collections::HashMap;
 
@@ -52,15 +53,17 @@ fn radiosities_agree() {
 /// Over the cells of lit surfaces that do not emit: chi-square; the difference of their power and
 /// its standard error, in percent.
 fn compare_with_table(n: u32, samples: u32) -> (ChiSquare, f64, f64) {
-    let scene = shipped("cornell");
-    let mesh = subdivide(&scene.geometry, Divisions::uniform(n)).unwrap();
-    let found = cell_means(&scene, &mesh, samples, 7, &|_| ());
+    let project = shipped("cornell");
+    let scene = &project.scene;
+    let patches = subdivide(scene, &Discretization::uniform(n), Context::default());
+    let mesh = patches.unwrap().mesh;
+    let found = cell_means(scene, &mesh, samples, 7, &|_| ());
     let table = reference_table(n);
     let rows = table.rows.iter();
     let rows: HashMap<_, _> = rows.map(|row| ((&row.surface, row.cell), row)).collect();
     let mut chi_square = ChiSquare::default();
     let (mut power, mut expected_power, mut variance) = (0.0, 0.0, 0.0);
-    for (cell, mean) in cells(&scene, &mesh).iter().zip(&found) {
+    for (cell, mean) in cells(scene, &mesh).iter().zip(&found) {
         if cell.emits {
             continue;
         }
@@ -91,15 +94,16 @@ fn compare_with_table(n: u32, samples: u32) -> (ChiSquare, f64, f64) {
 #[test]
 fn pictures_agree() {
     for (filter, passes) in [(PixelFilter::Box, 12), (PixelFilter::Tents, 6)] {
-        let mut scene = shipped("cornell");
-        scene.image.filter = filter;
+        let mut project = shipped("cornell");
+        project.params.image.filter = filter;
+        let (scene, image) = (&project.scene, &project.params.image);
         let camera = scene.camera.as_ref().unwrap();
-        let mut tracer = Tracer::new(&scene, camera, 1).unwrap();
+        let mut tracer = Tracer::new(scene, camera, image.film(), 1).unwrap();
         (0..passes).for_each(|_| tracer.pass(&|_| ()));
         compare_with_picture(
             filter,
             &tracer.picture(),
-            scene.image.exposure.factor().unwrap(),
+            project.params.image.exposure.number().unwrap(),
         );
     }
 }

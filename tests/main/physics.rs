@@ -1,15 +1,15 @@
 //! Laws that hold in whole scenes, whatever the picture.
 
+use radiosity::form_factors::Mode;
 use radiosity::geometry::{Divisions, Patch};
-use radiosity::scene::{Mode, Scene};
-use radiosity::{Error, Pipeline, Sources};
-use radiosity_tests::{pipeline, shipped, solve};
+use radiosity::{Error, Project, solve};
+use radiosity_tests::{Chain, shipped};
 
 /// A shipped scene, cut coarsely so that it takes no time.
-fn coarse(name: &str) -> Scene {
-    let mut scene = shipped(name);
-    scene.divisions = Divisions::uniform(4);
-    scene
+fn coarse(name: &str) -> Project {
+    let mut project = shipped(name);
+    project.params.discretization.default = Divisions::uniform(4);
+    project
 }
 
 /// Whether a patch of `cornell-closed` lies in part under the cuboid or above the lamp, where it
@@ -39,9 +39,9 @@ fn rows_close_up_to_the_known_error() {
 /// The accurate estimator closes them a hundred times better.
 #[test]
 fn accurate_rows_close() {
-    let mut scene = shipped("cornell-closed");
-    scene.form_factors.mode = Mode::Accurate;
-    let (mean, worst) = row_sum_errors(&scene);
+    let mut project = shipped("cornell-closed");
+    project.params.form_factors.mode = Mode::Accurate;
+    let (mean, worst) = row_sum_errors(&project);
     assert!(mean < 1e-4);
     assert!(worst < 3e-3);
 }
@@ -50,14 +50,13 @@ fn accurate_rows_close() {
 /// that a patch sees: rays and factors agree within their errors, and on average.
 #[test]
 fn rows_account_for_everything() {
-    let mut scene = shipped("cornell");
-    scene.form_factors.mode = Mode::Accurate;
-    scene.form_factors.tolerance = 1e-3;
-    let pipeline = pipeline(&scene);
-    let made = pipeline.form_factors(Sources::Cached).unwrap();
-    let rows = made.form_factors.rows;
+    let mut project = shipped("cornell");
+    project.params.form_factors.mode = Mode::Accurate;
+    project.params.form_factors.tolerance = 1e-3;
+    let chain = Chain::of(&project);
+    let rows = &chain.made().form_factors.rows;
     let (mut within, mut sum, mut variance) = (0, 0.0, 0.0);
-    for row in &rows {
+    for row in rows {
         let difference = row.fronts + row.backs + row.background - 1.0;
         let error = row.rays_error + row.error.unwrap();
         within += usize::from(difference.abs() <= 3.0 * error + 1e-4);
@@ -79,17 +78,18 @@ fn rows_account_for_everything() {
 }
 
 /// The mean and the largest |row sum - 1| over patches of `cornell-closed` that see no backs.
-fn row_sum_errors(scene: &Scene) -> (f64, f64) {
-    let pipeline = pipeline(scene);
-    let made = pipeline.form_factors(Sources::Cached).unwrap();
-    let rows = pipeline
-        .mesh()
+fn row_sum_errors(project: &Project) -> (f64, f64) {
+    let chain = Chain::of(project);
+    let made = chain.made();
+    let rows = chain
+        .patches
+        .mesh
         .patches
         .iter()
         .zip(&made.form_factors.rows)
         .enumerate();
     let errors: Vec<f64> = rows
-        .filter(|(index, (patch, _))| !sees_backs(pipeline.surface_name(*index), patch))
+        .filter(|(index, (patch, _))| !sees_backs(chain.patches.surface_name(*index), patch))
         .map(|(_, (_, row))| row.fronts - 1.0)
         .collect();
     let mean = errors.iter().map(|e| e.abs()).sum::<f64>() / errors.len() as f64;
@@ -111,16 +111,16 @@ fn row_sum_errors(scene: &Scene) -> (f64, f64) {
 /// edges in this scene of round numbers; they are decided the same way from either end.
 #[test]
 fn exchange_is_reciprocal() {
-    let scene = coarse("cornell-closed");
-    let mut reversed = scene.clone();
-    reversed.geometry.reverse();
-    reversed.surfaces.reverse();
-    let (here, there) = (pipeline(&scene), pipeline(&reversed));
-    let [a, b] = [&here, &there].map(|p| p.form_factors(Sources::Cached).unwrap().form_factors);
-    let last_face = here.mesh().faces.len() - 1;
+    let project = coarse("cornell-closed");
+    let mut reversed = project.clone();
+    reversed.scene.surfaces.reverse();
+    let chains = [&project, &reversed].map(Chain::of);
+    let [a, b] = chains.map(|chain| &chain.made().form_factors);
+    let [here, there] = chains.map(|chain| &chain.patches.mesh);
+    let last_face = here.faces.len() - 1;
     let place = |patch: usize| {
-        let patch = &here.mesh().patches[patch];
-        let face = &there.mesh().faces[last_face - patch.face.index()];
+        let patch = &here.patches[patch];
+        let face = &there.faces[last_face - patch.face.index()];
         face.first_patch + (patch.cell[0] * 4 + patch.cell[1]) as usize
     };
     for i in 0..a.areas.len() {
@@ -139,13 +139,13 @@ fn exchange_is_reciprocal() {
 /// it lies between `E / (1 - rho low)` and `E / (1 - rho high)`: the system is monotone.
 #[test]
 fn the_furnace_is_uniform_up_to_its_row_sums() {
-    let scene = shipped("furnace");
-    let pipeline = pipeline(&scene);
-    let made = pipeline.form_factors(Sources::Cached).unwrap();
+    let project = shipped("furnace");
+    let chain = Chain::of(&project);
+    let made = chain.made();
     let sums = || made.form_factors.rows.iter().map(|row| row.fronts);
     let (low, high) = (sums().fold(2.0, f64::min), sums().fold(0.0, f64::max));
-    let material = &scene.materials[0];
-    for b in solve(&pipeline).light.radiosity {
+    let material = &project.scene.materials[0];
+    for b in chain.light().radiosity {
         for c in 0..3 {
             let bound = |sum: f64| material.emission[c] / (1.0 - material.reflectance[c] * sum);
             // The residual of 1e-6 leaves an error of at most 1e-6 / (1 - 0.8 high).
@@ -158,13 +158,13 @@ fn the_furnace_is_uniform_up_to_its_row_sums() {
 
 #[test]
 fn black_rooms_show_their_lamps_alone() {
-    let mut scene = coarse("cornell");
-    for material in &mut scene.materials {
+    let mut project = coarse("cornell");
+    for material in &mut project.scene.materials {
         material.reflectance = [0.0; 3];
     }
-    let pipeline = pipeline(&scene);
-    for (index, b) in solve(&pipeline).light.radiosity.into_iter().enumerate() {
-        let emitted = if pipeline.surface_name(index) == "light" {
+    let chain = Chain::of(&project);
+    for (index, b) in chain.light().radiosity.into_iter().enumerate() {
+        let emitted = if chain.patches.surface_name(index) == "light" {
             12.0
         } else {
             0.0
@@ -175,13 +175,13 @@ fn black_rooms_show_their_lamps_alone() {
 
 #[test]
 fn radiosity_is_linear_in_emission() {
-    let scene = coarse("cornell");
-    let mut brighter = scene.clone();
-    for material in &mut brighter.materials {
+    let project = coarse("cornell");
+    let mut brighter = project.clone();
+    for material in &mut brighter.scene.materials {
         material.emission = material.emission.map(|e| 4.0 * e);
     }
-    let (one, four) = (solve(&pipeline(&scene)), solve(&pipeline(&brighter)));
-    for (one, four) in one.light.radiosity.iter().zip(&four.light.radiosity) {
+    let [one, four] = [&project, &brighter].map(|project| Chain::of(project).light());
+    for (one, four) in one.radiosity.iter().zip(&four.radiosity) {
         // A power of two moves exponents only.
         assert_eq!(one.map(|c| 4.0 * c), *four);
     }
@@ -190,24 +190,24 @@ fn radiosity_is_linear_in_emission() {
 #[test]
 fn lamps_emit_what_they_say() {
     let lamp = 12.0 * 400.0;
-    let emitted = solve(&pipeline(&coarse("cornell"))).energy.emitted;
+    let emitted = Chain::of(&coarse("cornell")).light().energy.emitted;
     assert!(emitted.iter().all(|e| (e / lamp - 1.0).abs() < 1e-12));
 }
 
 /// The error of a system that makes light names the surface that does.
 #[test]
 fn impossible_reflectances_name_their_surfaces() {
-    let mut scene = coarse("cornell-closed");
-    for material in &mut scene.materials {
+    let mut project = coarse("cornell-closed");
+    for material in &mut project.scene.materials {
         material.reflectance = [1.0; 3];
     }
-    let pipeline: Pipeline<'_> = pipeline(&scene);
-    let Err(error) = pipeline.solution(Sources::Cached) else {
+    let chain = Chain::of(&project);
+    let Err(error) = solve(chain.factors, &project.params.solver) else {
         panic!("rows over 1 at reflectance 1 must diverge");
     };
     assert!(matches!(error, Error::Unsolvable { .. }), "{error}");
-    let rows = pipeline.form_factors(Sources::Cached).unwrap().rows;
-    let worst = pipeline.surface_name(rows.largest.1 as usize);
+    let rows = &chain.made().rows;
+    let worst = chain.patches.surface_name(rows.largest.1 as usize);
     let text = error.to_string();
     assert!(
         text.contains(&format!("`{worst}`")) && error.remedy().is_some(),

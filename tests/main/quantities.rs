@@ -1,11 +1,12 @@
 //! Quantities that pictures show, against each other: what leaves is what is emitted and what is
 //! reflected of what arrives.
 
+use radiosity::Project;
+use radiosity::form_factors::Mode;
 use radiosity::image::Image;
 use radiosity::renderer::Shading;
-use radiosity::scene::{Mode, Scene};
-use radiosity::{PatchLight, Pipeline, Quantity};
-use radiosity_tests::{pipeline, shipped, solve};
+use radiosity::stages::{PatchLight, Quantity, render_by, show};
+use radiosity_tests::{Chain, shipped};
 
 const ALL: [Shading; 4] = [
     Shading::Constant,
@@ -14,20 +15,22 @@ const ALL: [Shading; 4] = [
     Shading::Gathered,
 ];
 
-fn small(name: &str, mode: Mode) -> Scene {
-    let mut scene = shipped(name);
-    (scene.image.width, scene.image.height) = (40, 30);
-    (scene.image.directions, scene.form_factors.mode) = (4, mode);
-    scene
+fn small(name: &str, mode: Mode) -> Project {
+    let mut project = shipped(name);
+    (project.params.image.width, project.params.image.height) = (40, 30);
+    project.params.form_factors.mode = mode;
+    project
 }
 
 /// The pictures of a quantity by each shading.
-fn pictures(pipeline: &Pipeline<'_>, light: &PatchLight, quantity: Quantity) -> Vec<Image> {
-    let shown = pipeline.shown(light, quantity).unwrap();
-    let camera = pipeline.scene().camera.unwrap();
-    pipeline
-        .look(&pipeline.renderer(&shown, &ALL), &camera)
-        .unwrap()
+fn pictures(chain: Chain, light: &PatchLight, quantity: Quantity) -> Vec<Image> {
+    let shown = show(chain.factors, light, quantity).unwrap();
+    let (camera, params) = (
+        chain.project.scene.camera.unwrap(),
+        &chain.project.params.image,
+    );
+    let renderer = shown.renderer(&chain.patches.mesh, params, &ALL);
+    render_by(&renderer, &camera, params, chain.patches.context()).unwrap()
 }
 
 /// The largest difference between pixels of an image and what it should be, relative to the mean of
@@ -47,11 +50,11 @@ fn worst(found: &Image, expected: &Image, of: impl Fn(f32, f32) -> f32) -> f32 {
 /// swinging beside shadows, each in its own way, and add up within some percent there.
 #[test]
 fn direct_and_indirect_light_are_all_light() {
-    let scene = small("cornell", Mode::Accurate);
-    let pipeline = pipeline(&scene);
-    let light = solve(&pipeline).light;
+    let project = small("cornell", Mode::Accurate);
+    let chain = Chain::of(&project);
+    let light = chain.light();
     let [all, direct, indirect] = [Quantity::Radiosity, Quantity::Direct, Quantity::Indirect]
-        .map(|quantity| pictures(&pipeline, &light, quantity));
+        .map(|quantity| pictures(chain, &light, quantity));
     for (k, shading) in ALL.into_iter().enumerate() {
         let mut sum = direct[k].clone();
         let channels = sum.pixels.as_flattened_mut().iter_mut();
@@ -72,11 +75,11 @@ fn direct_and_indirect_light_are_all_light() {
 /// In a furnace of reflectance rho and emission E as much arrives as leaves: (B - E) / rho = B.
 #[test]
 fn as_much_arrives_in_a_furnace_as_leaves() {
-    let scene = small("furnace", Mode::Accurate);
-    let pipeline = pipeline(&scene);
-    let light = solve(&pipeline).light;
+    let project = small("furnace", Mode::Accurate);
+    let chain = Chain::of(&project);
+    let light = chain.light();
     let [leaving, arriving] = [Quantity::Radiosity, Quantity::Irradiance]
-        .map(|quantity| pictures(&pipeline, &light, quantity));
+        .map(|quantity| pictures(chain, &light, quantity));
     for (k, shading) in ALL.into_iter().enumerate() {
         let off = worst(&arriving[k], &leaving[k], |a, b| a - b);
         println!("{shading:?} {off:.1e}");
@@ -90,12 +93,13 @@ fn as_much_arrives_in_a_furnace_as_leaves() {
 #[test]
 fn finite_elements_are_whole_patches_or_what_is_visible() {
     for mode in [Mode::Regular, Mode::Accurate] {
-        let scene = small("cornell", mode);
-        let pipeline = pipeline(&scene);
-        let solved = solve(&pipeline);
-        let means = pipeline.mean_radiosity(&solved.light);
+        let project = small("cornell", mode);
+        let chain = Chain::of(&project);
+        let solved = chain.solve();
+        let light = chain.light();
+        let means = light.mean_radiosity();
         let elements = match mode {
-            Mode::Accurate => &solved.light.radiosity,
+            Mode::Accurate => &light.radiosity,
             _ => &means,
         };
         // The scene's one light is as bright as its material says.
@@ -109,12 +113,7 @@ fn finite_elements_are_whole_patches_or_what_is_visible() {
                 "{mode:?} {found} {expected}"
             );
         }
-        let parts = solved
-            .light
-            .visible
-            .iter()
-            .zip(&means)
-            .zip(&solved.light.radiosity);
+        let parts = light.visible.iter().zip(&means).zip(&light.radiosity);
         let mut hidden_in_part = 0;
         for ((&visible, mean), shown) in parts.filter(|((visible, _), _)| **visible > 0.0) {
             let ratio = mean[0] / shown[0];
@@ -131,11 +130,11 @@ fn finite_elements_are_whole_patches_or_what_is_visible() {
 #[test]
 fn patches_reflect_what_arrives() {
     for mode in [Mode::Regular, Mode::Accurate] {
-        let scene = small("cornell-closed", mode);
-        let pipeline = pipeline(&scene);
-        let light = solve(&pipeline).light;
+        let project = small("cornell-closed", mode);
+        let chain = Chain::of(&project);
+        let light = chain.light();
         let [leaving, arriving] = [Quantity::Radiosity, Quantity::Irradiance]
-            .map(|quantity| pictures(&pipeline, &light, quantity).swap_remove(0));
+            .map(|quantity| pictures(chain, &light, quantity).swap_remove(0));
         // The middle of the lowest row of pixels shows the floor, which reflects the same of every
         // channel.
         let floor = |image: &Image| Image {
@@ -143,8 +142,8 @@ fn patches_reflect_what_arrives() {
             height: 1,
             pixels: image.pixels[image.pixels.len() - 30..][..20].to_vec(),
         };
-        let reflectance = pipeline
-            .scene()
+        let reflectance = project
+            .scene
             .materials
             .iter()
             .find(|m| m.name == "white")

@@ -1,28 +1,27 @@
 //! The whole chain against path-traced truth.
 
+use radiosity::form_factors::Mode;
 use radiosity::geometry::{Divisions, PixelFilter};
 use radiosity::renderer::Shading;
-use radiosity::scene::Mode;
-use radiosity::{PatchLight, radiosity_table};
-use radiosity_tests::{
-    BOTH, picture_errors, pipeline, radiosity_errors, shipped, solve, table_errors,
-};
+use radiosity::stages::PatchLight;
+use radiosity::{Context, estimate, radiosity_table, render, solve, subdivide};
+use radiosity_tests::{BOTH, Chain, picture_errors, radiosity_errors, shipped, table_errors};
 
 /// What the course program is known to reach on its scene, to a tenth of a point: RMSE 4.50 %
 /// and bias +1.63 % of the radiosities, constant picture 9.0 % away from edges. The smooth picture
 /// must be better than the course's, which has 5.9 %.
 #[test]
 fn the_course_is_reproduced() {
-    let scene = shipped("cornell");
-    let pipeline = pipeline(&scene);
-    let solved = solve(&pipeline);
-    let errors = radiosity_errors(&scene, &pipeline, &solved);
+    let project = shipped("cornell");
+    let chain = Chain::of(&project);
+    let light = chain.light();
+    let errors = radiosity_errors(chain.patches, &light);
     let (rmse, bias) = (errors.rmse_percent, errors.bias_percent);
     println!("radiosities: RMSE {rmse:.3} %, bias {bias:+.3} %");
     assert!((rmse - 4.50).abs() < 0.1, "RMSE {rmse}");
     assert!((bias - 1.63).abs() < 0.1, "bias {bias}");
 
-    let pictures = pipeline.pictures(&solved.light, &BOTH).unwrap();
+    let pictures = chain.pictures(&light, &BOTH);
     let away_from_edges = |image| picture_errors(image, PixelFilter::Tents, "0-2");
     let constant = away_from_edges(&pictures[0]);
     let smooth = away_from_edges(&pictures[1]);
@@ -36,11 +35,11 @@ fn the_course_is_reproduced() {
     );
     // The course shows means over whole patches, hidden parts included.
     let whole = PatchLight {
-        radiosity: pipeline.mean_radiosity(&solved.light),
-        visible: vec![1.0; solved.light.visible.len()],
-        ..solved.light
+        radiosity: light.mean_radiosity(),
+        visible: vec![1.0; light.visible.len()],
+        ..light
     };
-    let whole = pipeline.pictures(&whole, &[Shading::Constant]).unwrap();
+    let whole = chain.pictures(&whole, &[Shading::Constant]);
     let whole = away_from_edges(&whole[0]).rmse_percent;
     println!("constant picture of whole patches: RMSE {whole:.3} %");
     assert!((whole - 9.0).abs() < 0.1, "constant picture {whole}");
@@ -53,17 +52,14 @@ fn the_course_is_reproduced() {
 /// where what is visible of them is.
 #[test]
 fn accurate_factors_leave_the_error_of_the_patches() {
-    let mut scene = shipped("cornell");
-    scene.form_factors.mode = Mode::Accurate;
-    scene.form_factors.tolerance = 2e-3;
+    let mut project = shipped("cornell");
+    project.params.form_factors.mode = Mode::Accurate;
+    project.params.form_factors.tolerance = 2e-3;
     let tables = [12, 24].map(|n| {
-        scene.divisions = Divisions::uniform(n);
-        let pipeline = pipeline(&scene);
-        radiosity_table(
-            &scene,
-            pipeline.mesh(),
-            &pipeline.mean_radiosity(&solve(&pipeline).light),
-        )
+        project.params.discretization.default = Divisions::uniform(n);
+        let chain = Chain::of(&project);
+        let means = chain.light().mean_radiosity();
+        radiosity_table(&project.scene, &chain.patches.mesh, &means)
     });
     let coarse = tables[1].coarsened(6).unwrap();
     for (found, n, most, bias) in [
@@ -71,7 +67,7 @@ fn accurate_factors_leave_the_error_of_the_patches() {
         (&tables[1], 24, 0.5, 0.15),
         (&coarse, 4, 0.4, 0.15),
     ] {
-        let errors = table_errors(&scene, found, n);
+        let errors = table_errors(&project.scene, found, n);
         let rmse = errors.rmse_percent_without_noise();
         println!(
             "{n} x {n}: RMSE {rmse:.3} %, bias {:+.3} %",
@@ -89,21 +85,23 @@ fn accurate_factors_leave_the_error_of_the_patches() {
 /// more often remains.
 #[test]
 fn pictures_are_near_the_truth() {
-    let mut scene = shipped("cornell");
-    scene.form_factors.mode = Mode::Accurate;
-    scene.form_factors.tolerance = 2e-3;
-    scene.image.filter = PixelFilter::Box;
+    let mut project = shipped("cornell");
+    project.params.form_factors.mode = Mode::Accurate;
+    project.params.form_factors.tolerance = 2e-3;
+    project.params.image.filter = PixelFilter::Box;
     for (n, most_smooth, most_exact, bias) in [
         (12, 4.6, 2.1, 0.35),
         (24, 2.0, 1.0, 0.15),
         (48, 1.15, 0.58, 0.12),
     ] {
-        scene.divisions = Divisions::uniform(n);
-        let pipeline = pipeline(&scene);
-        let light = solve(&pipeline).light;
-        let pictures = pipeline
-            .pictures(&light, &[Shading::Smooth, Shading::Exact])
-            .unwrap();
+        project.params.discretization.default = Divisions::uniform(n);
+        // The largest matrix is not to stay.
+        let (scene, params) = (&project.scene, &project.params);
+        let patches = subdivide(scene, &params.discretization, Context::default()).unwrap();
+        let factors = estimate(&patches, &params.form_factors).unwrap();
+        let light = solve(&factors, &params.solver).unwrap().light().unwrap();
+        let (camera, shadings) = (scene.camera.unwrap(), [Shading::Smooth, Shading::Exact]);
+        let pictures = render(&patches, &light, &camera, &params.image, &shadings).unwrap();
         let errors = [0, 1].map(|k| picture_errors(&pictures[k], PixelFilter::Box, "0-2"));
         let [smooth, exact] = errors.map(|errors| errors.rmse_percent);
         let found = errors[1].bias_percent;
@@ -120,12 +118,12 @@ fn pictures_are_near_the_truth() {
 /// noise.
 #[test]
 fn gathered_light_is_nearer() {
-    let mut scene = shipped("cornell");
-    scene.form_factors.mode = Mode::Accurate;
-    scene.image.filter = PixelFilter::Box;
-    let pipeline = pipeline(&scene);
-    let light = solve(&pipeline).light;
-    let pictures = pipeline.pictures(&light, &[Shading::Gathered]).unwrap();
+    let mut project = shipped("cornell");
+    project.params.form_factors.mode = Mode::Accurate;
+    project.params.image.filter = PixelFilter::Box;
+    let chain = Chain::of(&project);
+    let light = chain.light();
+    let pictures = chain.pictures(&light, &[Shading::Gathered]);
     let errors = picture_errors(&pictures[0], PixelFilter::Box, "0-2");
     let (rmse, bias) = (errors.rmse_percent, errors.bias_percent);
     println!("gathered: {rmse:.3} %, bias {bias:+.3} %");
@@ -137,9 +135,9 @@ fn gathered_light_is_nearer() {
 /// and much closer than the constant one.
 #[test]
 fn triangles_are_as_good_as_rectangles() {
-    let scene = shipped("cornell-triangles");
-    let pipeline = pipeline(&scene);
-    let pictures = pipeline.pictures(&solve(&pipeline).light, &BOTH).unwrap();
+    let project = shipped("cornell-triangles");
+    let chain = Chain::of(&project);
+    let pictures = chain.pictures(&chain.light(), &BOTH);
     let away_from_edges = |image| picture_errors(image, PixelFilter::Tents, "0-2");
     let smooth = away_from_edges(&pictures[1]);
     println!(

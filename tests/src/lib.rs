@@ -7,9 +7,10 @@ mod reference;
 pub use measure::{picture_errors, radiosity_errors, table_errors};
 pub use reference::{radiance, reference_table, regions};
 
+use radiosity::image::Image;
 use radiosity::renderer::Shading;
-use radiosity::scene::{Scene, load};
-use radiosity::{Pipeline, Silent, Solved, Sources};
+use radiosity::stages::{Factors, FormFactorsMade, PatchLight, Patches, Solved};
+use radiosity::{Context, Project, estimate, render, solve, subdivide};
 use std::path::{Path, PathBuf};
 
 /// The shadings of the course's pictures.
@@ -20,18 +21,66 @@ pub fn in_checkout(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
 }
 
-/// A shipped scene.
-pub fn shipped(name: &str) -> Scene {
-    load(&in_checkout(&format!("scenes/{name}.toml"))).unwrap_or_else(|error| panic!("{error}"))
+/// A shipped scene, with its parameters.
+pub fn shipped(name: &str) -> Project {
+    let project = Project::open(&in_checkout(&format!("scenes/{name}.toml")));
+    project.unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The pipeline of a scene, without a cache.
-pub fn pipeline(scene: &Scene) -> Pipeline<'_> {
-    Pipeline::new(scene, None, &Silent).unwrap_or_else(|error| panic!("{error}"))
+/// The stages of a project, without a cache. They are kept until the program ends.
+#[derive(Clone, Copy)]
+pub struct Chain {
+    /// A copy of it.
+    pub project: &'static Project,
+    /// Stage 1.
+    pub patches: &'static Patches<'static>,
+    /// Stage 2.
+    pub factors: &'static Factors<'static>,
 }
 
-/// The solution of a pipeline.
-pub fn solve(pipeline: &Pipeline<'_>) -> Solved {
-    let solved = pipeline.solution(Sources::Cached);
-    solved.unwrap_or_else(|error| panic!("{error}"))
+impl Chain {
+    /// The stages of a project.
+    pub fn of(project: &Project) -> Chain {
+        let project: &Project = leak(project.clone());
+        let params = &project.params;
+        let patches = subdivide(&project.scene, &params.discretization, Context::default());
+        let patches: &Patches<'_> = leak(patches.unwrap_or_else(|error| panic!("{error}")));
+        let factors = estimate(patches, &params.form_factors);
+        Chain {
+            project,
+            patches,
+            factors: leak(factors.unwrap_or_else(|error| panic!("{error}"))),
+        }
+    }
+
+    /// The form factors.
+    pub fn made(self) -> &'static FormFactorsMade {
+        self.factors
+            .made()
+            .unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// Stage 3.
+    pub fn solve(self) -> Solved<'static> {
+        let solved = solve(self.factors, &self.project.params.solver);
+        solved.unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// What patches shine with.
+    pub fn light(self) -> PatchLight {
+        let light = self.solve().light();
+        light.unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// Stage 4, as the scene's first camera sees it.
+    pub fn pictures(self, light: &PatchLight, shadings: &[Shading]) -> Vec<Image> {
+        let camera = self.project.scene.first_camera().expect("a camera");
+        let params = &self.project.params.image;
+        let pictures = render(self.patches, light, &camera, params, shadings);
+        pictures.unwrap_or_else(|error| panic!("{error}"))
+    }
+}
+
+fn leak<T>(value: T) -> &'static T {
+    Box::leak(Box::new(value))
 }

@@ -2,29 +2,27 @@
 
 use crate::reference::{radiance, reference_table, regions};
 use radiosity::compare::{Errors, Table, compare_pictures, compare_tables};
-use radiosity::geometry::{Divisions, PixelFilter, subdivide};
+use radiosity::geometry::{Discretization, PixelFilter};
 use radiosity::image::Image;
 use radiosity::scene::Scene;
-use radiosity::{Pipeline, Solved, cells, radiosity_table};
+use radiosity::stages::{PatchLight, Patches};
+use radiosity::{Context, cells, radiosity_table, subdivide};
 
 /// The exposure at which the course shows its picture.
 const EXPOSURE: f64 = 4.0;
 
 /// The errors of radiosities of 12 x 12 patches against the table.
-pub fn radiosity_errors(scene: &Scene, pipeline: &Pipeline<'_>, solved: &Solved) -> Errors {
-    let found = radiosity_table(
-        scene,
-        pipeline.mesh(),
-        &pipeline.mean_radiosity(&solved.light),
-    );
+pub fn radiosity_errors(patches: &Patches<'_>, light: &PatchLight) -> Errors {
+    let scene = patches.scene();
+    let found = radiosity_table(scene, &patches.mesh, &light.mean_radiosity());
     table_errors(scene, &found, 12)
 }
 
 /// The errors of radiosities of `n x n` patches against the table of so many.
 pub fn table_errors(scene: &Scene, found: &Table, n: u32) -> Errors {
-    let mesh = subdivide(&scene.geometry, Divisions::uniform(n));
-    let mesh = mesh.unwrap_or_else(|error| panic!("{error}"));
-    let errors = compare_tables(&cells(scene, &mesh), found, &reference_table(n));
+    let patches = subdivide(scene, &Discretization::uniform(n), Context::default());
+    let patches = patches.unwrap_or_else(|error| panic!("{error}"));
+    let errors = compare_tables(&cells(scene, &patches.mesh), found, &reference_table(n));
     let errors = errors.unwrap_or_else(|error| panic!("{error}"));
     errors[errors.len() - 1].1
 }

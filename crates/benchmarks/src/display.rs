@@ -6,10 +6,11 @@ use crate::Error;
 use crate::figure::{Figure, Target, show};
 use crate::timing::best_seconds;
 use crate::{course, course_display, form_factors};
-use radiosity::image::{PictureFormat, ToneMap, Transfer, encode};
+use radiosity::geometry::Camera;
+use radiosity::image::{PictureFormat, encode};
 use radiosity::renderer::Shading;
-use radiosity::scene::{Scene, load};
-use radiosity::{Pipeline, Silent, Sources};
+use radiosity::scene::Scene;
+use radiosity::{Context, Project, estimate, render, solve, subdivide};
 use std::path::Path;
 use views::{GOOD, Truth, beside_the_tracer, exact_view, gathered_view};
 
@@ -25,23 +26,23 @@ const TIMES_THE_COURSE: f64 = 25.0;
 const WHOLE_RUN: f64 = 110.0;
 
 pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
-    let scene = load(&root.join("scenes/cornell.toml"))?;
-    let mut figures = beside_the_course(&scene)?;
+    let project = Project::open(&root.join("scenes/cornell.toml"))?;
+    let mut figures = beside_the_course(&project)?;
     show(&figures, json);
     figures.clear();
     let truth = Truth::read(root)?;
     let mut errors = Vec::new();
     for divisions in SIZES {
-        let (found, more) = exact_view(&scene, divisions, &truth)?;
+        let (found, more) = exact_view(&project, divisions, &truth)?;
         errors.push((divisions, found));
         figures.extend(more);
     }
     let good = errors.iter().find(|(divisions, _)| *divisions == GOOD);
     let view = good.map(|(_, view)| view).expect("it is one of the sizes");
     for divisions in GATHERED {
-        figures.extend(gathered_view(&scene, divisions, &truth)?);
+        figures.extend(gathered_view(&project, divisions, &truth)?);
     }
-    figures.extend(beside_the_tracer(&scene, &truth, view)?);
+    figures.extend(beside_the_tracer(&project, &truth, view)?);
     show(&figures, json);
     Ok(())
 }
@@ -50,25 +51,36 @@ fn figure(name: &str, value: f64, unit: &'static str, target: Option<Target>) ->
     Figure::new(format!("display.{name}"), Some(value), unit, target)
 }
 
+pub(crate) fn first_camera(scene: &Scene) -> Result<Camera, radiosity::Error> {
+    let camera = scene.first_camera();
+    camera.ok_or_else(|| radiosity::Error::no_camera(scene))
+}
+
 /// Both pictures of the course, and its whole run.
-fn beside_the_course(scene: &Scene) -> Result<Vec<Figure>, Error> {
-    let pipeline = Pipeline::new(scene, None, &Silent)?;
-    let made = pipeline.form_factors(Sources::Cached)?.form_factors;
-    let light = pipeline.solution(Sources::Cached)?.light;
+fn beside_the_course(project: &Project) -> Result<Vec<Figure>, Error> {
+    let patches = subdivide(
+        &project.scene,
+        &project.params.discretization,
+        Context::default(),
+    )?;
+    let factors = estimate(&patches, &project.params.form_factors)?;
+    let light = solve(&factors, &project.params.solver)?.light()?;
+    let camera = first_camera(&project.scene)?;
     let ours = best_seconds(RUNS, || {
-        std::hint::black_box(pipeline.pictures(&light, &BOTH).is_ok());
+        let pictures = render(&patches, &light, &camera, &project.params.image, &BOTH);
+        std::hint::black_box(pictures.is_ok());
     });
-    let mesh = pipeline.mesh();
+    let (mesh, made) = (&patches.mesh, &factors.made()?.form_factors);
     let course = best_seconds(1, || {
         for is_smooth in [false, true] {
             std::hint::black_box(course_display::render(mesh, &light.radiosity, is_smooth));
         }
     });
     let course_factors = form_factors::baseline_seconds(mesh);
-    let whole = course + course_factors + course::seconds(&made);
+    let whole = course + course_factors + course::seconds(made);
     let folder = tempfile::tempdir()?;
     let mut problem = None;
-    let cold = best_seconds(RUNS, || problem = cold_run(scene, folder.path()).err());
+    let cold = best_seconds(RUNS, || problem = cold_run(project, folder.path()).err());
     if let Some(problem) = problem {
         return Err(problem);
     }
@@ -114,17 +126,22 @@ fn beside_the_course(scene: &Scene) -> Result<Vec<Figure>, Error> {
 }
 
 /// Everything that `render` does without a cache, but for words.
-fn cold_run(scene: &Scene, folder: &Path) -> Result<(), Error> {
-    let pipeline = Pipeline::new(scene, None, &Silent)?;
-    let light = pipeline.solution(Sources::Cached)?.light;
-    let pictures = pipeline.pictures(&light, &BOTH)?;
-    let transfer = Transfer::Gamma(2.2);
-    let tone = ToneMap::clamped(scene.image.exposure.factor().unwrap_or(1.0), transfer);
+fn cold_run(project: &Project, folder: &Path) -> Result<(), Error> {
+    let patches = subdivide(
+        &project.scene,
+        &project.params.discretization,
+        Context::default(),
+    )?;
+    let factors = estimate(&patches, &project.params.form_factors)?;
+    let light = solve(&factors, &project.params.solver)?.light()?;
+    let (camera, params) = (first_camera(&project.scene)?, &project.params.image);
+    let pictures = render(&patches, &light, &camera, params, &BOTH)?;
+    let tone = params.tone_map();
     for (name, image) in ["constant", "smooth"].into_iter().zip(&pictures) {
         let shown = tone.apply(image);
         for (ending, format) in [
             ("ppm", PictureFormat::Ppm),
-            ("png", PictureFormat::Png(transfer)),
+            ("png", PictureFormat::Png(tone.transfer)),
         ] {
             let path = folder.join(format!("{name}.{ending}"));
             let written = std::fs::write(&path, encode(&shown, format, &[]));

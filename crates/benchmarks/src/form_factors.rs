@@ -5,10 +5,10 @@ use crate::baseline::Baseline;
 use crate::figure::{Figure, Target, show};
 use crate::machine;
 use crate::timing::{best_seconds, median};
-use radiosity::form_factors::{Estimator, estimate};
-use radiosity::geometry::{Divisions, Mesh, subdivide};
-use radiosity::scene::{Mode, Scene, load};
-use radiosity::{Pipeline, Silent, Sources, cells};
+use radiosity::form_factors::{Estimation, Estimator, Mode};
+use radiosity::geometry::{Discretization, Mesh};
+use radiosity::scene::Scene;
+use radiosity::{Context, Project, cells, estimate, solve, subdivide};
 use std::path::Path;
 use std::time::Instant;
 
@@ -40,11 +40,11 @@ const TOLERANCE: f64 = 0.01;
 const CONVERGED: f64 = 3e-5;
 
 pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
-    let mut scene = load(&root.join("scenes/cornell.toml"))?;
-    let mesh = cut(&scene, SIZES[0].0)?;
+    let mut project = Project::open(&root.join("scenes/cornell.toml"))?;
+    let mesh = cut(&project.scene, SIZES[0].0)?;
     let baseline = Baseline::new(&mesh);
     let peak = machine::peak();
-    let (of_sizes, rate) = sizes(&scene, &baseline, peak)?;
+    let (of_sizes, rate) = sizes(&project.scene, &baseline, peak)?;
     let mut figures = vec![
         Figure::new(
             "form_factors.baseline.rate".to_owned(),
@@ -61,13 +61,14 @@ pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
     ];
     figures.extend(of_sizes);
     figures.extend(instruction_sets());
-    figures.extend(accuracy(&mut scene, &baseline)?);
+    figures.extend(accuracy(&mut project, &baseline)?);
     show(&figures, json);
     Ok(())
 }
 
 fn cut(scene: &Scene, divisions: u32) -> Result<Mesh, Error> {
-    Ok(subdivide(&scene.geometry, Divisions::uniform(divisions))?)
+    let params = Discretization::uniform(divisions);
+    Ok(subdivide(scene, &params, Context::default())?.mesh)
 }
 
 /// Pairs of points per second, on one thread.
@@ -86,11 +87,8 @@ fn baseline_rate(baseline: &Baseline<'_>) -> f64 {
 /// How many pairs of points the course's program tries.
 fn point_pairs(mesh: &Mesh) -> f64 {
     let square = |count: usize| (count * count) as f64;
-    let of_faces: f64 = mesh
-        .faces
-        .iter()
-        .map(|face| square(face.patches().len()))
-        .sum();
+    let faces = mesh.faces.iter();
+    let of_faces: f64 = faces.map(|face| square(face.patches().len())).sum();
     81.0 * (square(mesh.patches.len()) - of_faces) / 2.0
 }
 
@@ -115,7 +113,7 @@ impl Race {
         let round = |_| {
             let rate = baseline_rate(baseline);
             let seconds = best_seconds(RUNS.min(rounds), || {
-                std::hint::black_box(estimate(mesh, estimator, &|_| ()));
+                std::hint::black_box(Estimation::new(mesh, estimator).run());
             });
             (seconds, rate)
         };
@@ -190,16 +188,16 @@ fn instruction_sets() -> Vec<Figure> {
 }
 
 /// The accurate mode against the course's rule, by time and by radiosities.
-fn accuracy(scene: &mut Scene, baseline: &Baseline<'_>) -> Result<Vec<Figure>, Error> {
-    let settings = &mut scene.form_factors;
-    (settings.mode, settings.points) = (Mode::Regular, 3);
-    let course = radiosities(scene)?;
-    scene.form_factors.mode = Mode::Accurate;
-    scene.form_factors.tolerance = CONVERGED;
-    let truth = radiosities(scene)?;
-    scene.form_factors.tolerance = TOLERANCE;
-    let accurate = radiosities(scene)?;
-    let mesh = cut(scene, SIZES[0].0)?;
+fn accuracy(project: &mut Project, baseline: &Baseline<'_>) -> Result<Vec<Figure>, Error> {
+    let mut by = |mode, tolerance| {
+        let params = &mut project.params.form_factors;
+        (params.mode, params.points, params.tolerance) = (mode, 3, tolerance);
+        radiosities(project)
+    };
+    let course = by(Mode::Regular, TOLERANCE)?;
+    let truth = by(Mode::Accurate, CONVERGED)?;
+    let accurate = by(Mode::Accurate, TOLERANCE)?;
+    let mesh = cut(&project.scene, SIZES[0].0)?;
     let tolerance = TOLERANCE;
     let race = Race::run(baseline, &mesh, Estimator::Accurate { tolerance }, ROUNDS);
     let errors = [&course, &accurate].map(|found| 100.0 * relative_error(found, &truth));
@@ -227,14 +225,14 @@ fn accuracy(scene: &mut Scene, baseline: &Baseline<'_>) -> Result<Vec<Figure>, E
 }
 
 /// Of the patches that do not emit.
-fn radiosities(scene: &Scene) -> Result<Vec<[f32; 3]>, Error> {
-    let pipeline = Pipeline::new(scene, None, &Silent)?;
-    let radiosity = pipeline.solution(Sources::Cached)?.light.radiosity;
-    let cells = cells(scene, pipeline.mesh());
-    let lit = radiosity
-        .into_iter()
-        .zip(&cells)
-        .filter(|(_, cell)| !cell.emits);
+fn radiosities(project: &Project) -> Result<Vec<[f32; 3]>, Error> {
+    let Project { scene, params, .. } = project;
+    let patches = subdivide(scene, &params.discretization, Context::default())?;
+    let factors = estimate(&patches, &params.form_factors)?;
+    let radiosity = solve(&factors, &params.solver)?.light()?.radiosity;
+    let cells = cells(scene, &patches.mesh);
+    let lit = radiosity.into_iter().zip(&cells);
+    let lit = lit.filter(|(_, cell)| !cell.emits);
     Ok(lit.map(|(radiosity, _)| radiosity).collect())
 }
 

@@ -1,9 +1,8 @@
 //! What the machine can do, and what other instruction sets of it do.
 
 use crate::Error;
-use radiosity::geometry::Divisions;
-use radiosity::scene::load;
-use radiosity::{Pipeline, Silent, Sources};
+use radiosity::geometry::Discretization;
+use radiosity::{Context, Project, estimate, subdivide};
 use radiosity_simd::{Float, InstructionSet, Kernel, LANES, Simd, dispatch};
 use std::path::Path;
 use std::process::Command;
@@ -79,10 +78,13 @@ fn seconds_on(set: InstructionSet, divisions: u32) -> Option<f64> {
 
 /// What the form factors of `cornell` take here and now.
 pub(crate) fn print_regular_seconds(root: &Path, divisions: u32) -> Result<(), Error> {
-    let mut scene = load(&root.join("scenes/cornell.toml"))?;
-    scene.divisions = Divisions::uniform(divisions);
-    let pipeline = Pipeline::new(&scene, None, &Silent)?;
-    let made = pipeline.form_factors(Sources::Cached)?;
-    println!("{}", made.origin.seconds);
+    let Project { scene, params, .. } = Project::open(&root.join("scenes/cornell.toml"))?;
+    let patches = subdivide(
+        &scene,
+        &Discretization::uniform(divisions),
+        Context::default(),
+    )?;
+    let factors = estimate(&patches, &params.form_factors)?;
+    println!("{}", factors.made()?.origin.seconds);
     Ok(())
 }

@@ -9,16 +9,25 @@ use crate::figure::{Figure, Target, show};
 use crate::timing::best_seconds;
 use bandwidth::passes;
 use radiosity::cache::Store;
-use radiosity::form_factors::FormFactors;
-use radiosity::scene::{Mode, Scene, load};
-use radiosity::solver::{Convergence, Method, relit};
-use radiosity::{Pipeline, Silent, Sources};
+use radiosity::form_factors::{self, FormFactors, Mode};
+use radiosity::geometry::Discretization;
+use radiosity::scene::Scene;
+use radiosity::solver::{Convergence, Method, Params, relit};
+use radiosity::stages::{Factors, Patches};
+use radiosity::{Context, Project, estimate, subdivide};
 use std::path::Path;
 
 /// Patches along each edge of the course's rectangles: 1,728, 6,912 and 27,648 patches.
 const SIZES: [u32; 3] = [12, 24, 48];
 /// Good enough to know how many passes a solution takes.
-const TOLERANCE: f64 = 0.01;
+const FACTORS: form_factors::Params = form_factors::Params {
+    mode: Mode::Accurate,
+    points: 3,
+    pairs: None,
+    seed: 0,
+    tolerance: 0.01,
+    closure: false,
+};
 /// Reflectances of the closed room.
 const REFLECTANCES: [f64; 3] = [0.5, 0.9, 0.95];
 const RESIDUALS: [f64; 2] = [1e-3, 1e-6];
@@ -31,22 +40,27 @@ const COURSE: f64 = 60.0;
 pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
     let folder = tempfile::tempdir()?;
     let store = Store::new(folder.path());
+    let context = Context {
+        cache: Some(&store),
+        ..Context::default()
+    };
     let mut figures = Vec::new();
     for divisions in SIZES {
-        let cornell = scene(root, "cornell", divisions)?;
-        let made = form_factors(&cornell, &store)?;
-        figures.extend(passes(&made));
-        figures.extend(methods(cornell, &made)?);
-        figures.push(beside_the_course(&made, &figures));
-        let closed = scene(root, "cornell-closed", divisions)?;
-        let made = form_factors(&closed, &store)?;
+        let cornell = scene(root, "cornell")?;
+        let patches = cached(&cornell, divisions, context)?;
+        let factors = estimate(&patches, &FACTORS)?;
+        let made = &factors.made()?.form_factors;
+        figures.extend(passes(made));
+        figures.extend(methods(&factors)?);
+        figures.push(beside_the_course(made, &figures));
         for reflectance in REFLECTANCES {
-            let mut closed = closed.clone();
+            let mut closed = scene(root, "cornell-closed")?;
             closed.name = format!("closed_{reflectance}");
             for material in &mut closed.materials {
                 material.reflectance = [reflectance; 3];
             }
-            figures.extend(methods(closed, &made)?);
+            let patches = cached(&closed, divisions, context)?;
+            figures.extend(methods(&estimate(&patches, &FACTORS)?)?);
         }
         show(&figures, json);
         figures.clear();
@@ -55,19 +69,19 @@ pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
     Ok(())
 }
 
-fn scene(root: &Path, name: &str, divisions: u32) -> Result<Scene, Error> {
-    let mut scene = load(&root.join(format!("scenes/{name}.toml")))?;
-    scene.divisions = radiosity::geometry::Divisions::uniform(divisions);
-    scene.form_factors.mode = Mode::Accurate;
-    scene.form_factors.tolerance = TOLERANCE;
-    Ok(scene)
+fn scene(root: &Path, name: &str) -> Result<Scene, Error> {
+    Ok(Project::open(&root.join(format!("scenes/{name}.toml")))?.scene)
 }
 
-/// From a mapped file: the first time they are made, the second they are read.
-fn form_factors(scene: &Scene, store: &Store) -> Result<FormFactors, Error> {
-    let pipeline = Pipeline::new(scene, Some(store), &Silent)?;
-    pipeline.form_factors(Sources::Cached)?;
-    Ok(pipeline.form_factors(Sources::Cached)?.form_factors)
+/// Patches whose form factors are cached, and so mapped from a file when they are asked for.
+fn cached<'a>(
+    scene: &'a Scene,
+    divisions: u32,
+    context: Context<'a>,
+) -> Result<Patches<'a>, Error> {
+    let patches = subdivide(scene, &Discretization::uniform(divisions), context)?;
+    estimate(&patches, &FACTORS)?.made()?;
+    Ok(patches)
 }
 
 /// So many runs: the shorter, the more.
@@ -80,24 +94,24 @@ fn runs(patches: usize) -> u32 {
 }
 
 /// What each method takes to each residual.
-fn methods(mut scene: Scene, made: &FormFactors) -> Result<Vec<Figure>, Error> {
+fn methods(factors: &Factors<'_>) -> Result<Vec<Figure>, Error> {
+    let patches = factors.patches();
+    let (scene, patches) = (&patches.scene().name, patches.mesh.patches.len());
     let mut figures = Vec::new();
-    for (name, method) in Method::RIVALS {
+    for (name, params) in Params::default().by_each_method() {
         let name = name.to_lowercase().replace([' ', '-'], "_");
         for residual in RESIDUALS {
-            scene.solver.tolerance = residual;
-            let pipeline = Pipeline::new(&scene, None, &Silent)?;
-            let patches = pipeline.mesh().patches.len();
-            let report = pipeline.solve_by(method, made)?.report;
+            let params = Params { residual, ..params };
+            let report = factors.solution(&params)?.report;
             let seconds = best_seconds(runs(patches).div_ceil(5), || {
-                std::hint::black_box(pipeline.solve_by(method, made).is_ok());
+                std::hint::black_box(factors.solution(&params).is_ok());
             });
-            let promise = match (&scene.name[..], &name[..]) {
+            let promise = match (&scene[..], &name[..]) {
                 ("cornell", "over_relaxation") if residual < 1e-5 => Some(MOST_PASSES),
                 ("closed_0.95", "conjugate_gradients") if residual < 1e-5 => Some(MOST_STEPS),
                 _ => None,
             };
-            let name = format!("solver.{patches}.{}.{name}.{residual:e}", scene.name);
+            let name = format!("solver.{patches}.{scene}.{name}.{residual:e}");
             let target = promise.map(|most| Target::Between(0.0, most));
             figures.push(Figure::new(
                 format!("{name}.passes"),

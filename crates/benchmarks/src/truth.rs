@@ -7,7 +7,8 @@ mod oracle;
 use crate::Error;
 use crate::figure::{Figure, Target};
 use oracle::{Accuracy, Oracle, tracer};
-use radiosity::scene::{Mode, Scene, load};
+use radiosity::Project;
+use radiosity::form_factors::{Mode, Params};
 use std::path::Path;
 use std::time::Instant;
 
@@ -42,21 +43,26 @@ pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
     let mut rows = Vec::new();
     let mut of_oracle = Vec::new();
     for name in SCENES {
-        let mut scene = load(&root.join(format!("scenes/{name}.toml")))?;
+        let mut project = Project::open(&root.join(format!("scenes/{name}.toml")))?;
         if ["cornell", "knot"].contains(&name) {
-            of_oracle.push(speed(&scene)?);
+            of_oracle.push(speed(&project)?);
         }
-        (scene.image.width, scene.image.height) = PICTURE;
+        let image = &mut project.params.image;
+        (image.width, image.height) = PICTURE;
         // The error is to be that of the light, not of the samples along edges.
-        scene.image.adaptive = ADAPTIVE;
-        let oracle = Oracle::of(&scene)?;
+        image.adaptive = ADAPTIVE;
+        let oracle = Oracle::of(&project)?;
         of_oracle.extend(oracle.noise(name));
         let mut row = format!("| `{name}` |");
         for (mode_name, mode, points, pairs) in MODES {
-            let settings = &mut scene.form_factors;
-            (settings.mode, settings.points, settings.pairs) = (mode, points, pairs);
-            settings.tolerance = TOLERANCE;
-            let accuracy = oracle.judge(&scene)?;
+            project.params.form_factors = Params {
+                mode,
+                points,
+                pairs,
+                tolerance: TOLERANCE,
+                ..Params::default()
+            };
+            let accuracy = oracle.judge(&project)?;
             let described = described(accuracy.as_ref());
             eprintln!("{name}, {mode_name}: {described}");
             row += &format!(" {described} |");
@@ -76,14 +82,14 @@ pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
     Ok(())
 }
 
-fn speed(scene: &Scene) -> Result<Figure, Error> {
-    let mut tracer = tracer(scene, 1)?;
+fn speed(project: &Project) -> Result<Figure, Error> {
+    let mut tracer = tracer(project, 1)?;
     let start = Instant::now();
     (0..SPEED_PASSES).for_each(|_| tracer.pass(&|_| ()));
     let threads = rayon::current_num_threads() as f64;
     let rate = tracer.vertices() as f64 / start.elapsed().as_secs_f64() / threads;
     Ok(Figure::new(
-        format!("oracle.{}.vertices", scene.name),
+        format!("oracle.{}.vertices", project.scene.name),
         Some(1e-6 * rate),
         "million path vertices/s/thread",
         Some(Target::AtLeast(5.0)),

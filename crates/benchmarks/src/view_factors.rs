@@ -7,7 +7,7 @@
 use crate::Error;
 use crate::figure::{Figure, Target, show};
 use crate::generated::generated;
-use radiosity::form_factors::{Estimator, FormFactors, estimate};
+use radiosity::form_factors::{Estimation, Estimator, FormFactors};
 use radiosity::geometry::Mesh;
 use radiosity::scene::Scene;
 use radiosity::{By, FactorTable};
@@ -134,7 +134,7 @@ fn best(mesh: &Mesh, size: &Size) -> (f64, FormFactors) {
     };
     let once = || {
         let start = Instant::now();
-        let made = estimate(mesh, estimator, &|_| ());
+        let made = Estimation::new(mesh, estimator).run();
         (start.elapsed().as_secs_f64(), made)
     };
     let runs = (1..size.runs).map(|_| once());

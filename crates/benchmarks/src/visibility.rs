@@ -6,7 +6,7 @@
 use crate::Error;
 use crate::figure::{Figure, Target, show};
 use crate::generated::generated;
-use radiosity::form_factors::{Estimator, estimate};
+use radiosity::form_factors::{Estimation, Estimator};
 use radiosity::geometry::{Bundle, DVec3, Mesh, Occluders, Patch, Walls};
 use radiosity_generate::blob;
 use rand::{RngExt, SeedableRng};
@@ -64,7 +64,7 @@ pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
     }
     let start = Instant::now();
     let tolerance = TOLERANCE;
-    std::hint::black_box(estimate(&mesh, Estimator::Accurate { tolerance }, &|_| ()));
+    std::hint::black_box(Estimation::new(&mesh, Estimator::Accurate { tolerance }).run());
     let seconds = Some(start.elapsed().as_secs_f64());
     let what = "s, all factors of the 1,944 patches";
     figures.push(figure("stage.seconds", seconds, what, None));

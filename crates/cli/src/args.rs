@@ -1,15 +1,15 @@
 //! The command line, as clap reads it.
 
 use super::cache_args::CacheCommand;
-use super::choices::{ByArg, ModeArg};
+use super::choices::ByArg;
+use super::estimate_args::EstimateArgs;
 use super::image_args::{DisplayArgs, ImageArgs, OF_PICTURES};
 use super::light_args::LightArgs;
-use super::parse::{
-    parse_counts, parse_gamma, parse_positive, parse_row_tolerance, parse_threshold, path_ending_in,
-};
+use super::parse::{number_or_word, parse_counts, parse_positive, parse_threshold, path_ending_in};
+use super::scene_args::{OutsideArgs, SceneArgs};
 use super::solver_args::SolveArgs;
 use clap::{Args, Subcommand};
-use radiosity::scene::{Gamma, MeshFiles};
+use radiosity::image::Transfer;
 use std::path::PathBuf;
 
 /// The stages, and what helps with them.
@@ -36,87 +36,6 @@ pub enum Command {
     Cache(CacheCommand),
     /// Show what a cached file holds, how it was made, and how good it is
     Inspect(InspectCommand),
-}
-
-/// Which scene.
-#[derive(Debug, Args)]
-pub struct SceneArgs {
-    /// A scene file, or the name of one in `scenes/`
-    #[arg(default_value = "cornell")]
-    pub scene: PathBuf,
-    #[command(flatten)]
-    #[allow(missing_docs, reason = "a comment here would replace the help text")]
-    pub outside: OutsideArgs,
-    /// Patches along each edge of a surface, as N or AxB, instead of the scene's default;
-    /// surfaces with divisions of their own keep them
-    #[arg(long, value_name = "N", value_parser = parse_counts, conflicts_with = "max_patch_edge")]
-    pub patches: Option<(u32, u32)>,
-    /// Longest edge of a patch, in scene units, instead of the scene's default
-    #[arg(long, value_name = "LENGTH", value_parser = parse_positive, allow_negative_numbers = true)]
-    pub max_patch_edge: Option<f64>,
-}
-
-/// Which files a scene may name.
-#[derive(Clone, Copy, Debug, Args)]
-pub struct OutsideArgs {
-    /// Read meshes outside of the scene's folder, too
-    #[arg(long)]
-    pub allow_outside: bool,
-}
-
-impl OutsideArgs {
-    pub(super) fn mesh_files(self) -> MeshFiles {
-        match self.allow_outside {
-            true => MeshFiles::Anywhere,
-            false => MeshFiles::InFolder,
-        }
-    }
-}
-
-/// How form factors are estimated, and where artifacts are kept.
-#[derive(Debug, Args)]
-#[command(next_help_heading = "Form factors")]
-pub struct EstimateArgs {
-    /// Estimator of the form factors
-    #[arg(long, value_enum)]
-    pub mode: Option<ModeArg>,
-    /// Points (or random strata) along each edge of a patch
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
-    pub points: Option<u32>,
-    /// Pairs of points per pair of patches, for monte-carlo [default: points^2]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub pairs: Option<u32>,
-    /// Aimed error of accurate: the sum over a row of |error of F_ij|, 1e-6 to 0.1
-    #[arg(long, value_name = "X", value_parser = parse_row_tolerance, allow_negative_numbers = true)]
-    pub tolerance: Option<f64>,
-    /// Seed of the random points of monte-carlo
-    #[arg(long, value_name = "N")]
-    pub seed: Option<u64>,
-    /// Scale the factors so that rows sum to 1 where patches see fronts alone; reciprocity is kept
-    #[arg(long)]
-    pub closure: bool,
-    #[command(flatten)]
-    #[allow(missing_docs, reason = "a comment here would replace the help text")]
-    pub cache: CacheArgs,
-    /// Threads to use [default: all]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
-    pub threads: Option<u32>,
-    /// Print one JSON object on standard output, and everything else on standard error
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// Where artifacts are kept.
-#[derive(Debug, Args)]
-#[command(next_help_heading = "Run")]
-pub struct CacheArgs {
-    /// Folder of cached form factors and solutions [default: cache in a checkout, else the
-    /// platform's cache folder]
-    #[arg(long = "cache", value_name = "DIR")]
-    pub folder: Option<PathBuf>,
-    /// Compute everything, read and write no cached file
-    #[arg(long, conflicts_with = "folder")]
-    pub no_cache: bool,
 }
 
 /// `form-factors`.
@@ -214,19 +133,19 @@ pub struct ReferenceCommand {
     #[arg(long, value_name = "N", default_value = "64", value_parser = clap::value_parser!(u32).range(2..))]
     pub spp: u32,
     /// Stop the picture after so many seconds; the result then depends on the machine's speed
-    #[arg(long, value_name = "SECONDS", value_parser = parse_positive, allow_negative_numbers = true, conflicts_with_all = ["spp", "patches", "cells"])]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_positive, allow_negative_numbers = true, conflicts_with_all = ["spp", "divisions", "cells"])]
     pub time: Option<f64>,
     /// Stop when the picture's estimated relative error is below so many percent, after 16 passes
     /// at least
-    #[arg(long, value_name = "PERCENT", value_parser = parse_positive, allow_negative_numbers = true, conflicts_with_all = ["spp", "time", "patches", "cells"])]
+    #[arg(long, value_name = "PERCENT", value_parser = parse_positive, allow_negative_numbers = true, conflicts_with_all = ["spp", "time", "divisions", "cells"])]
     pub error: Option<f64>,
     /// Instead of a picture, the mean radiosity of each cell of an N x N (or AxB) grid over each
     /// surface, hidden parts included, as CSV; faces of meshes are cells as they are
-    #[arg(long, value_name = "N", value_parser = parse_counts, conflicts_with_all = OF_PICTURES)]
-    pub patches: Option<(u32, u32)>,
+    #[arg(long, alias = "patches", value_name = "N", value_parser = parse_counts, conflicts_with_all = OF_PICTURES)]
+    pub divisions: Option<(u32, u32)>,
     /// Instead of a picture, the mean radiosity of each of the scene's own patches, as CSV: the
     /// rows of `solve --export`
-    #[arg(long, conflicts_with = "patches", conflicts_with_all = OF_PICTURES)]
+    #[arg(long, conflicts_with = "divisions", conflicts_with_all = OF_PICTURES)]
     pub cells: bool,
     /// Seed of the random walks
     #[arg(long, value_name = "N", default_value = "0")]
@@ -263,10 +182,10 @@ pub struct CompareCommand {
     pub outside: OutsideArgs,
     /// Cells along each edge of every surface in the tables, as N or AxB [default: the scene's
     /// own patches]
-    #[arg(long, value_name = "N", value_parser = parse_counts)]
-    pub patches: Option<(u32, u32)>,
-    /// Average N x N cells of the first table: compare 24 x 24 patches with 4 x 4 by --patches 4
-    /// --coarsen 6
+    #[arg(long, alias = "patches", value_name = "N", value_parser = parse_counts)]
+    pub divisions: Option<(u32, u32)>,
+    /// Average N x N cells of the first table: compare 24 x 24 patches with 4 x 4 by
+    /// --divisions 4 --coarsen 6
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub coarsen: Option<u32>,
     /// Factor from radiance to brightness: pixels of the reference that exceed 1 are left out,
@@ -275,8 +194,8 @@ pub struct CompareCommand {
     pub exposure: Option<f64>,
     /// Exponent by which levels of .ppm and .png become brightness, or srgb [default: a PNG's own,
     /// the scene's, or 2.2]
-    #[arg(long, value_name = "X|srgb", value_parser = parse_gamma, allow_negative_numbers = true)]
-    pub gamma: Option<Gamma>,
+    #[arg(long, value_name = "X|srgb", value_parser = number_or_word::<Transfer>, allow_negative_numbers = true)]
+    pub gamma: Option<Transfer>,
     /// Write the differences: .png in colours (red: brighter, blue: darker), .pfm as linear
     /// numbers
     #[arg(long, value_name = "FILE", value_parser = path_ending_in(&["png", "pfm"]))]

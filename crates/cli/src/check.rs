@@ -6,37 +6,34 @@ use super::terminal::say;
 use crate::error::Error;
 use crate::lines::{indented, labelled, scene_line};
 use radiosity::covers;
-use radiosity::geometry::{Divisions, Mesh, count_patches, subdivide};
+use radiosity::geometry::{Discretization, Mesh, count_patches};
 use radiosity::resources::Needs;
 use radiosity::scene::{Light, Scene};
-use radiosity::settings::estimator;
 use radiosity::words::{bytes, grouped};
-use radiosity::{darkness, openings};
-
-/// Each face is a patch.
-const UNDIVIDED: Divisions = Divisions::uniform(1);
+use radiosity::{Context, Project, darkness, openings, subdivide};
 
 pub(super) fn run(args: &CheckArgs, site: &Site) -> Result<(), Error> {
-    let mut scene = site.load(&args.scene.scene, args.scene.outside)?;
-    args.scene.apply(&mut scene);
-    let counted = counted_needs(&scene)?;
+    let project = args.scene.load(site)?;
+    project.params.check().map_err(radiosity::Error::from)?;
+    let counted = counted_needs(&project)?;
     let fits = counted.check_memory();
     let faces = match fits {
-        Ok(()) => Some(faces_of(&scene)?),
+        Ok(()) => Some(faces_of(&project)?),
         Err(_) => None,
     };
     let needs = match &faces {
-        Some(mesh) => needs_of(&scene, counted.patches, mesh.faces.len()),
+        Some(mesh) => needs_of(&project, counted.patches, mesh.faces.len()),
         None => counted,
     };
-    for line in check_lines(&scene, &needs, faces.as_ref()) {
+    for line in check_lines(&project, &needs, faces.as_ref()) {
         say(&line)?;
     }
     Ok(fits.and(needs.check_memory())?)
 }
 
 /// What `check` says; of the faces of a scene that fits into memory.
-fn check_lines(scene: &Scene, needs: &Needs, faces: Option<&Mesh>) -> Vec<String> {
+fn check_lines(project: &Project, needs: &Needs, faces: Option<&Mesh>) -> Vec<String> {
+    let scene = &project.scene;
     let camera = if scene.first_camera().is_some() {
         ""
     } else {
@@ -55,18 +52,19 @@ fn check_lines(scene: &Scene, needs: &Needs, faces: Option<&Mesh>) -> Vec<String
     lines.extend(views_line(scene));
     lines.extend(lights_line(scene));
     if let Some(faces) = faces {
-        lines.extend(notes(scene, faces).iter().map(|note| indented(note)));
+        lines.extend(notes(project, faces).iter().map(|note| indented(note)));
     }
     lines
 }
 
 /// What other commands say of surfaces that lie on others, of scenes without light, and of closed ones that
 /// are not: known from the faces alone, however they are cut.
-fn notes(scene: &Scene, faces: &Mesh) -> Vec<String> {
-    let mut notes = covers::notes(scene, faces);
+fn notes(project: &Project, faces: &Mesh) -> Vec<String> {
+    let (scene, mode) = (&project.scene, project.params.form_factors.mode);
+    let mut notes = covers::notes(scene, faces, mode);
     // Scenes for form factors alone have neither.
     if scene.first_camera().is_some() || !scene.lights.is_empty() {
-        notes.extend(darkness::of_scene(scene, faces));
+        notes.extend(darkness::of_scene(scene, faces, mode));
     }
     if scene.closed && openings::show_in_rays(faces) {
         notes.extend(openings::warnings(scene, faces));
@@ -92,21 +90,25 @@ fn lights_line(scene: &Scene) -> Option<String> {
 
 /// What computing the scene would take, by its numbers of patches: without faces that only stand in the way,
 /// but nothing is made for it.
-fn counted_needs(scene: &Scene) -> Result<Needs, Error> {
-    let of_mesh = |error| radiosity::Error::of_mesh(scene, &error);
-    let patches = count_patches(&scene.geometry, scene.divisions).map_err(of_mesh)?;
-    let faces = count_patches(&scene.undivided(), UNDIVIDED).map_err(of_mesh)?;
-    Ok(needs_of(scene, patches, faces))
+fn counted_needs(project: &Project) -> Result<Needs, Error> {
+    let params = &project.params.discretization;
+    let count = |params: &Discretization| {
+        let counted = count_patches(&params.of_shapes(project.scene.shapes()), params.default);
+        counted.map_err(|error| radiosity::Error::of_mesh(&project.scene, params, &error))
+    };
+    let (patches, faces) = (count(params)?, count(&params.by_faces())?);
+    Ok(needs_of(project, patches, faces))
 }
 
-fn needs_of(scene: &Scene, patches: usize, faces: usize) -> Needs {
-    Needs::of(patches, faces, estimator(scene)).with_closure(scene.form_factors.closure)
+fn needs_of(project: &Project, patches: usize, faces: usize) -> Needs {
+    let params = &project.params.form_factors;
+    Needs::of(patches, faces, params.estimator()).with_closure(params.closure)
 }
 
 /// The faces of a scene, uncut.
-fn faces_of(scene: &Scene) -> Result<Mesh, Error> {
-    let of_mesh = |error| radiosity::Error::of_mesh(scene, &error);
-    Ok(subdivide(&scene.undivided(), UNDIVIDED).map_err(of_mesh)?)
+fn faces_of(project: &Project) -> Result<Mesh, Error> {
+    let by_faces = project.params.discretization.by_faces();
+    Ok(subdivide(&project.scene, &by_faces, Context::default())?.mesh)
 }
 
 #[cfg(test)]
@@ -126,13 +128,17 @@ mod tests {
             let [a, b, c, d] = [1, 2, 3, 4].map(|n| first + n);
             text += &format!("O {} {a} {b} {c} {d} 0 0 0.9 plate\n", k + 1);
         }
-        let scene = radiosity::scene::parse("plates.vs3".as_ref(), &text).unwrap();
-        let counted = counted_needs(&scene).unwrap();
-        let faces = faces_of(&scene).unwrap().faces.len();
+        let project = Project::parse("plates.vs3".as_ref(), &text).unwrap();
+        let counted = counted_needs(&project).unwrap();
+        let faces = faces_of(&project).unwrap().faces.len();
         assert_eq!((counted.patches, faces), (1, 101));
-        let told = needs_of(&scene, counted.patches, faces);
-        let mesh = subdivide(&scene.geometry, scene.divisions).unwrap();
-        let run = Needs::of(mesh.patches.len(), mesh.faces.len(), estimator(&scene));
+        let told = needs_of(&project, counted.patches, faces);
+        let params = &project.params;
+        let context = Context::default();
+        let patches = subdivide(&project.scene, &params.discretization, context).unwrap();
+        let mesh = &patches.mesh;
+        let estimator = params.form_factors.estimator();
+        let run = Needs::of(mesh.patches.len(), mesh.faces.len(), estimator);
         assert_eq!(told.memory, run.memory);
     }
 }

@@ -1,6 +1,88 @@
 //! Choices on the command line.
 
 use clap::ValueEnum;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use serde::de::value::{Error, StrDeserializer};
+use serde::de::{DeserializeOwned, IntoDeserializer};
+
+/// A choice of a parameter: its name in scene files, and what it means.
+type Choice = (&'static str, &'static str);
+
+/// Parses a parameter that has these choices.
+pub(super) fn choice<T: DeserializeOwned + Clone + Send + Sync + 'static>(
+    choices: &'static [Choice],
+) -> impl TypedValueParser<Value = T> {
+    let value = |(name, help): &Choice| PossibleValue::new(*name).help(*help);
+    let parser = PossibleValuesParser::new(choices.iter().map(value));
+    parser.try_map(|name| {
+        let name: StrDeserializer<'_, Error> = name.as_str().into_deserializer();
+        T::deserialize(name)
+    })
+}
+
+/// [`Mode`](radiosity::form_factors::Mode).
+pub(super) const MODES: [Choice; 3] = [
+    ("regular", "Fixed points on each patch, all pairs of them"),
+    (
+        "accurate",
+        "Exact where nothing stands between two patches, times their visible share where something \
+         does, to a --tolerance",
+    ),
+    (
+        "monte-carlo",
+        "Random points; its variance is unbounded where patches touch, so it needs many pairs \
+         there, or the solution may not exist",
+    ),
+];
+
+/// [`PixelFilter`](radiosity::geometry::PixelFilter).
+pub(super) const FILTERS: [Choice; 4] = [
+    (
+        "tents",
+        "A tent around each sub-pixel that overlaps its neighbours: the course's filter",
+    ),
+    ("box", "Evenly over the pixel"),
+    (
+        "tent",
+        "A tent around the pixel that reaches the neighbours' centres",
+    ),
+    (
+        "mitchell",
+        "Mitchell and Netravali's cubic: sharp, but with dark lines round lamps far brighter than \
+         a screen",
+    ),
+];
+
+/// [`Curve`](radiosity::image::Curve).
+pub(super) const TONES: [Choice; 3] = [
+    ("clamp", "It is white: the course's way"),
+    (
+        "reinhard",
+        "Luminance is compressed, up to the brightest of the picture (Reinhard 2002)",
+    ),
+    ("filmic", "The response of a film (Hable 2010)"),
+];
+
+/// [`Backs`](radiosity::geometry::Backs).
+pub(super) const BACKS: [Choice; 2] = [
+    ("black", "They are black"),
+    (
+        "transparent",
+        "The camera looks through them: into a room from outside",
+    ),
+];
+
+/// [`Method`](radiosity::solver::Method).
+pub(super) const METHODS: [Choice; 2] = [
+    (
+        "gauss-seidel",
+        "Row after row, with the newest values of all others",
+    ),
+    (
+        "cg",
+        "Conjugate gradients: the fewest passes where light is reflected often",
+    ),
+];
 
 /// [`By`](radiosity::By) on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -11,52 +93,6 @@ pub enum ByArg {
     Surface,
     /// Groups of surfaces, as the scene names them, and of faces, as mesh files do
     Group,
-}
-
-/// [`Mode`](radiosity::scene::Mode) on the command line.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum ModeArg {
-    /// Fixed points on each patch, all pairs of them
-    Regular,
-    /// Exact where nothing stands between two patches, times their visible share where something
-    /// does, to a --tolerance
-    Accurate,
-    /// Random points; its variance is unbounded where patches touch, so it needs many pairs
-    /// there, or the solution may not exist
-    MonteCarlo,
-}
-
-/// [`PixelFilter`](radiosity::geometry::PixelFilter) on the command line.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum FilterArg {
-    /// A tent around each sub-pixel that overlaps its neighbours: the course's filter
-    Tents,
-    /// Evenly over the pixel
-    Box,
-    /// A tent around the pixel that reaches the neighbours' centres
-    Tent,
-    /// Mitchell and Netravali's cubic: sharp, but with dark lines round lamps far brighter than a screen
-    Mitchell,
-}
-
-/// [`Tone`](radiosity::scene::Tone) on the command line.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum ToneArg {
-    /// It is white: the course's way
-    Clamp,
-    /// Luminance is compressed, up to the brightest of the picture (Reinhard 2002)
-    Reinhard,
-    /// The response of a film (Hable 2010)
-    Filmic,
-}
-
-/// [`Backs`](radiosity::geometry::Backs) on the command line.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum BacksArg {
-    /// They are black
-    Black,
-    /// The camera looks through them: into a room from outside
-    Transparent,
 }
 
 /// [`Shading`](radiosity::renderer::Shading) on the command line.
@@ -118,14 +154,4 @@ pub enum ShowArg {
     Illuminance,
     /// The estimated errors of the form factors of each patch, in false colours
     Error,
-}
-
-/// [`SolverMethod`](radiosity::scene::SolverMethod) on the command line.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum SolverArg {
-    /// Row after row, with the newest values of all others
-    GaussSeidel,
-    /// Conjugate gradients: the fewest passes where light is reflected often
-    #[value(alias = "conjugate-gradients")]
-    Cg,
 }

@@ -11,8 +11,7 @@ use super::terminal::{say, say_json};
 use crate::error::Error;
 use pictures::pictures;
 use radiosity::compare::{Cell, Errors, compare_tables, parse_table};
-use radiosity::scene::Scene;
-use radiosity::{cells, table_mesh};
+use radiosity::{Context, Project, cells, of_cells, subdivide};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -39,11 +38,11 @@ struct Compared {
 }
 
 pub(crate) fn run(args: &CompareCommand, site: &Site) -> Result<(), Error> {
-    let scene = args
+    let project = args
         .scene
         .as_ref()
         .map(|name| site.load(name.as_ref(), args.outside));
-    let scene = scene.transpose()?;
+    let project = project.transpose()?;
     if let Some(path) = &args.difference {
         check_folder_of(path)?;
     }
@@ -52,8 +51,8 @@ pub(crate) fn run(args: &CompareCommand, site: &Site) -> Result<(), Error> {
         ending.is_some_and(|ending| ending.eq_ignore_ascii_case("csv"))
     };
     let compared = match [&args.found, &args.reference].map(|path| is_table(path)) {
-        [false, false] => pictures(args, scene.as_ref())?,
-        [true, true] => tables(args, scene.as_ref())?,
+        [false, false] => pictures(args, project.as_ref())?,
+        [true, true] => tables(args, project.as_ref())?,
         _ => {
             let problem = "a picture cannot be compared with a table (.csv)";
             return Err(Error::input(problem));
@@ -76,7 +75,7 @@ pub(crate) fn run(args: &CompareCommand, site: &Site) -> Result<(), Error> {
     }
 }
 
-fn tables(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Error> {
+fn tables(args: &CompareCommand, project: Option<&Project>) -> Result<Compared, Error> {
     let needs_scene =
         || Error::input("tables do not tell the areas of patches: name their --scene");
     let only_pictures = [
@@ -90,8 +89,9 @@ fn tables(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Erro
             "--regions, --difference, --exposure and --gamma are for pictures, not for tables";
         return Err(Error::input(problem));
     }
-    let scene = scene.ok_or_else(needs_scene)?;
-    let cells = cells(scene, &table_mesh(scene, args.patches)?);
+    let Project { scene, params, .. } = project.ok_or_else(needs_scene)?;
+    let cut = of_cells(&params.discretization, args.divisions);
+    let cells = cells(scene, &subdivide(scene, &cut, Context::default())?.mesh);
     let table = |path: &Path| parse_table(&read(path)?).map_err(at(path));
     let (found, reference) = (table(&args.found)?, table(&args.reference)?);
     let found = match args.coarsen {

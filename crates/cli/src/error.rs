@@ -68,6 +68,8 @@ impl Error {
             Error::Engine(Engine::Cache(_)) | Error::CacheFolder(_) | Error::Output { .. } => 1,
             Error::Engine(Engine::Resources { .. }) | Error::Threads(_) => 4,
             Error::Engine(Engine::Unsolvable { .. }) => 5,
+            // Those of files are errors of the scene.
+            Error::Engine(Engine::OutOfRange(_)) => 2,
             Error::Engine(_) | Error::Input { .. } => 3,
         }
     }
@@ -78,6 +80,9 @@ impl Error {
             // It shows the place in the file.
             let help = error.help().map(scene_help);
             return format!("error: {}", error.report(help.as_deref()));
+        }
+        if let Error::Engine(radiosity::Error::OutOfRange(error)) = self {
+            return format!("error: {} must be {}", flag_of(error.key), error.range);
         }
         match self.help() {
             Some(help) => format!("error: {self}\n   = help: {help}"),
@@ -93,6 +98,16 @@ impl Error {
             Error::Output { .. } => None,
             Error::Threads(_) => Some("use fewer (--threads)".to_owned()),
         }
+    }
+}
+
+/// The flag of a parameter: of most it is called the same.
+fn flag_of(key: &str) -> String {
+    match key {
+        "width" | "height" => "--size".to_owned(),
+        "method" => "--solver".to_owned(),
+        "directions" => "--gather".to_owned(),
+        _ => format!("--{}", key.replace('_', "-")),
     }
 }
 
@@ -112,7 +127,7 @@ fn by_flags(remedy: &Remedy) -> String {
         Remedy::AccurateEstimator | Remedy::AccurateEstimatorOrDarker => " (--mode accurate)",
         Remedy::MoreSweeps => " (--max-sweeps)",
         Remedy::FewerPatches { .. } => {
-            " (--patches, or a larger --max-patch-edge or `divisions` of surfaces)"
+            " (--divisions, or a larger --max-patch-edge or `divisions` of surfaces)"
         }
         Remedy::SmallerPictures => " (--size)",
         Remedy::CacheFolder | Remedy::CacheDisk => " (--cache, --no-cache)",

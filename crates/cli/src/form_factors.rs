@@ -7,10 +7,8 @@ use super::site::Site;
 use super::terminal::Terminal;
 use crate::error::Error;
 use crate::report::Report;
-use radiosity::Pipeline;
-use radiosity::Sources;
 use radiosity::cache::Store;
-use radiosity::{By, FactorTable};
+use radiosity::{By, Context, FactorTable, Project, estimate, subdivide};
 use std::path::{Path, PathBuf};
 
 pub(super) fn run(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
@@ -18,29 +16,34 @@ pub(super) fn run(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
     if let Some(path) = export {
         check_export(path, args)?;
     }
-    let mut scene = site.load(&args.scene.scene, args.scene.outside)?;
-    args.scene.apply(&mut scene);
-    args.estimate.apply(&mut scene);
-    let sources = if args.recompute {
-        Sources::Computed
-    } else {
-        Sources::Cached
-    };
+    let Project {
+        scene, mut params, ..
+    } = args.scene.load(site)?;
+    args.estimate.apply(&mut params.form_factors);
+    params.check().map_err(radiosity::Error::from)?;
     let terminal = Terminal::new(args.estimate.json);
     with_threads(args.estimate.threads, || {
         let store = store(&args.estimate, site);
-        let pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
-        let mut report = Report::new(&scene, pipeline.mesh(), &terminal);
-        let made = pipeline.form_factors(sources)?;
-        report.form_factors(&made.origin, &made.rows, &pipeline);
+        let context = Context {
+            cache: store.as_ref(),
+            observer: &terminal,
+        };
+        let patches = subdivide(&scene, &params.discretization, context)?;
+        let factors = estimate(&patches, &params.form_factors)?;
+        let mut report = Report::new(&patches, &terminal);
+        let made = match args.recompute {
+            true => factors.made_anew(),
+            false => factors.made(),
+        }?;
+        report.form_factors(&made.origin, &made.rows, &factors);
         if let Some(path) = export {
             let by = match args.by {
                 ByArg::Patch => By::Patch,
                 ByArg::Surface => By::Surface,
                 ByArg::Group => By::Group,
             };
-            let table = FactorTable::new(&scene, pipeline.mesh(), &made.form_factors, by)?;
-            let rows_path = export_table(&table, path, pipeline.cache(), args)?;
+            let table = FactorTable::new(&scene, &patches.mesh, &made.form_factors, by)?;
+            let rows_path = export_table(&table, path, context.cache, args)?;
             report.output("export", path);
             report.output("export_rows", &rows_path);
         }

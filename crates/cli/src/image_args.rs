@@ -1,14 +1,14 @@
 //! What pictures are like, on the command line.
 
-use super::apply::set;
-use super::choices::{DirectArg, FilterArg, FormatArg, ShadingArg, ToneArg};
-use super::parse::{parse_angle, parse_directions, parse_exposure, parse_gamma, parse_size};
+use super::choices::{DirectArg, FILTERS, FormatArg, ShadingArg, TONES, choice};
+use super::parse::{number_or_word, parse_directions, parse_size};
+use super::scene_args::set;
 use super::show_args::ShowArgs;
 use super::view_args::ViewArgs;
 use clap::Args;
 use radiosity::geometry::PixelFilter;
-use radiosity::renderer::Shading;
-use radiosity::scene::{Exposure, Gamma, Scene, Tone};
+use radiosity::image::{Curve, Exposure, Transfer};
+use radiosity::renderer::{ImageParams, Shading};
 use std::path::PathBuf;
 
 /// The flags of [`ImageArgs`].
@@ -30,21 +30,21 @@ pub struct ImageArgs {
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
     /// Sub-pixels along each edge of a pixel
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, value_name = "N")]
     pub subpixels: Option<u32>,
     /// How samples are spread around pixels and their parts
-    #[arg(long, value_enum)]
-    pub filter: Option<FilterArg>,
+    #[arg(long, value_parser = choice::<PixelFilter>(&FILTERS))]
+    pub filter: Option<PixelFilter>,
     /// Factor from radiance to brightness, or auto: 98 % of the lit pixels of each picture are then
     /// less bright than a screen
-    #[arg(long, value_name = "X|auto", value_parser = parse_exposure, allow_negative_numbers = true)]
+    #[arg(long, value_name = "X|auto", value_parser = number_or_word::<Exposure>, allow_negative_numbers = true)]
     pub exposure: Option<Exposure>,
     /// What becomes of what is brighter than a screen
-    #[arg(long, value_enum)]
-    pub tone: Option<ToneArg>,
+    #[arg(long, value_parser = choice::<Curve>(&TONES))]
+    pub tone: Option<Curve>,
     /// Exponent of the screen, or srgb
-    #[arg(long, value_name = "X|srgb", value_parser = parse_gamma, allow_negative_numbers = true)]
-    pub gamma: Option<Gamma>,
+    #[arg(long, value_name = "X|srgb", value_parser = number_or_word::<Transfer>, allow_negative_numbers = true)]
+    pub gamma: Option<Transfer>,
     /// Dither levels: no bands in smooth gradients
     #[arg(long)]
     pub dither: bool,
@@ -65,10 +65,10 @@ pub struct DisplayArgs {
     pub image: ImageArgs,
     /// Degrees between normals below which neighbouring faces of a mesh are shaded as one smooth
     /// surface [default: 30]
-    #[arg(long, value_name = "DEGREES", value_parser = parse_angle, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     pub crease_angle: Option<f64>,
     /// Samples per sub-pixel
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, value_name = "N")]
     pub samples: Option<u32>,
     /// How light that comes straight from emitters is shown: as patches have it, in a
     /// patch-constant and a smooth picture, or as it is at every sample, in one picture
@@ -90,7 +90,7 @@ pub struct DisplayArgs {
     pub shading: Vec<ShadingArg>,
     /// Take up to N times as many samples where a pixel shows several faces of different
     /// brightness [default: 1]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, value_name = "N")]
     pub adaptive: Option<u32>,
     /// Folder for the pictures [default: out]
     #[arg(help_heading = "Results", long, short, value_name = "DIR")]
@@ -104,39 +104,27 @@ pub struct DisplayArgs {
 }
 
 impl ImageArgs {
-    pub(crate) fn apply(&self, scene: &mut Scene) {
-        let image = &mut scene.image;
-        set(&mut image.width, self.size.map(|(width, _)| width));
-        set(&mut image.height, self.size.map(|(_, height)| height));
-        set(&mut image.subpixels, self.subpixels);
-        let filter = self.filter.map(|filter| match filter {
-            FilterArg::Tents => PixelFilter::Tents,
-            FilterArg::Box => PixelFilter::Box,
-            FilterArg::Tent => PixelFilter::Tent,
-            FilterArg::Mitchell => PixelFilter::Mitchell,
-        });
-        set(&mut image.filter, filter);
-        set(&mut image.exposure, self.exposure);
-        let tone = self.tone.map(|tone| match tone {
-            ToneArg::Clamp => Tone::Clamp,
-            ToneArg::Reinhard => Tone::Reinhard,
-            ToneArg::Filmic => Tone::Filmic,
-        });
-        set(&mut image.tone, tone);
-        set(&mut image.gamma, self.gamma);
-        image.dither |= self.dither;
+    pub(super) fn apply(&self, params: &mut ImageParams) {
+        set(&mut params.width, self.size.map(|(width, _)| width));
+        set(&mut params.height, self.size.map(|(_, height)| height));
+        set(&mut params.subpixels, self.subpixels);
+        set(&mut params.filter, self.filter);
+        set(&mut params.exposure, self.exposure);
+        set(&mut params.tone, self.tone);
+        set(&mut params.gamma, self.gamma);
+        params.dither |= self.dither;
     }
 }
 
 impl DisplayArgs {
-    pub(crate) fn apply(&self, scene: &mut Scene) {
-        self.image.apply(scene);
-        self.views.apply(scene);
-        set(&mut scene.image.samples, self.samples);
-        set(&mut scene.image.adaptive, self.adaptive);
-        set(&mut scene.image.directions, self.gather.flatten());
-        set(&mut scene.image.crease_angle, self.crease_angle);
-        set(&mut scene.image.lumens_per_watt, self.show.lumens_per_watt);
+    pub(super) fn apply(&self, params: &mut ImageParams) {
+        self.image.apply(params);
+        set(&mut params.backs, self.views.backs);
+        set(&mut params.samples, self.samples);
+        set(&mut params.adaptive, self.adaptive);
+        set(&mut params.directions, self.gather.flatten());
+        set(&mut params.crease_angle, self.crease_angle);
+        set(&mut params.lumens_per_watt, self.show.lumens_per_watt);
     }
 
     /// The pictures that are asked for.

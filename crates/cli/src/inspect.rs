@@ -67,8 +67,8 @@ fn surface_names(args: &InspectCommand, site: &Site) -> Result<Option<Vec<String
         Some(scene) => Some(site.load(scene, args.outside)?),
         None => last_user(&args.file).and_then(|name| site.load(name.as_ref(), args.outside).ok()),
     };
-    let names = |scene: radiosity::scene::Scene| {
-        let surfaces = scene.surfaces.into_iter();
+    let names = |project: radiosity::Project| {
+        let surfaces = project.scene.surfaces.into_iter();
         surfaces.map(|surface| surface.name).collect()
     };
     Ok(scene.map(names))

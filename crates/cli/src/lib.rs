@@ -1,7 +1,6 @@
 //! The command `radiosity`, which `cargo xtask` shares: arguments, progress, reports and exit codes around
 //! the engine.
 
-mod apply;
 mod args;
 mod cache_args;
 mod cache_folder;
@@ -10,6 +9,7 @@ mod choices;
 mod compare;
 mod display;
 mod error;
+mod estimate_args;
 mod form_factors;
 mod image_args;
 mod input;
@@ -26,6 +26,7 @@ mod reference;
 mod report;
 mod run;
 mod save;
+mod scene_args;
 mod series;
 mod show_args;
 mod signals;
@@ -37,13 +38,15 @@ mod usage;
 mod view_args;
 
 pub use args::{
-    CacheArgs, CheckArgs, Command, CompareCommand, DisplayCommand, EstimateArgs,
-    FormFactorsCommand, InspectCommand, OutsideArgs, ReferenceCommand, SceneArgs, SolveCommand,
+    CheckArgs, Command, CompareCommand, DisplayCommand, FormFactorsCommand, InspectCommand,
+    ReferenceCommand, SolveCommand,
 };
 pub use cache_args::{CacheAction, CacheCommand, CleanArgs};
+pub use estimate_args::{CacheArgs, EstimateArgs};
 pub use image_args::{DisplayArgs, ImageArgs};
 pub use light_args::LightArgs;
 pub use run::run;
+pub use scene_args::{OutsideArgs, SceneArgs};
 pub use show_args::ShowArgs;
 pub use site::Site;
 pub use solver_args::SolveArgs;

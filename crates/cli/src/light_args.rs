@@ -3,7 +3,8 @@
 use super::parse::{parse_dim, parse_tint};
 use crate::error::Error;
 use clap::Args;
-use radiosity::scene::{Light, Scene, suggestion};
+use radiosity::scene::Scene;
+use radiosity::stages::Dimming;
 use std::collections::BTreeSet;
 
 /// How bright lights are; no solution is made anew for that.
@@ -22,25 +23,21 @@ pub struct LightArgs {
 }
 
 impl LightArgs {
-    pub(crate) fn apply(&self, scene: &mut Scene) -> Result<(), Error> {
+    /// The lights of a scene as these flags have them.
+    pub(super) fn dimming(&self, scene: &Scene) -> Result<Dimming, Error> {
         once(&self.dim, "--dim")?;
         once(&self.tint, "--tint")?;
+        let mut dimming = Dimming::of(scene);
         for (name, dim) in &self.dim {
-            light(scene, name)?.dim = *dim;
+            dimming.light(name)?.dim = *dim;
         }
         for (name, tint) in &self.tint {
-            light(scene, name)?.tint = *tint;
+            dimming.light(name)?.tint = *tint;
         }
-        for name in &self.only {
-            light(scene, name)?;
+        if !self.only.is_empty() {
+            dimming.only(&self.only)?;
         }
-        let is_off = |light: &&mut Light| !self.only.is_empty() && !self.only.contains(&light.name);
-        scene
-            .lights
-            .iter_mut()
-            .filter(is_off)
-            .for_each(|light| light.dim = 0.0);
-        Ok(())
+        Ok(dimming)
     }
 }
 
@@ -54,21 +51,4 @@ fn once<T>(of_lights: &[(String, T)], flag: &str) -> Result<(), Error> {
         )),
         None => Ok(()),
     }
-}
-
-fn light<'a>(scene: &'a mut Scene, name: &str) -> Result<&'a mut Light, Error> {
-    let names: Vec<&str> = scene
-        .lights
-        .iter()
-        .map(|light| light.name.as_str())
-        .collect();
-    let Some(index) = names.iter().position(|known| *known == name) else {
-        let help = suggestion(name, names.iter().copied());
-        let help = help.unwrap_or_else(|| "nothing in this scene emits".to_owned());
-        return Err(Error::with_help(
-            format!("there is no light `{name}`"),
-            help,
-        ));
-    };
-    Ok(&mut scene.lights[index])
 }

@@ -5,13 +5,14 @@ use super::parse::PatchName;
 use super::print::Palette;
 use super::show_args::ShowArgs;
 use crate::error::Error;
-use radiosity::Quantity;
+use radiosity::Params;
+use radiosity::form_factors::Mode;
 use radiosity::geometry::Mesh;
 use radiosity::image::{ColorScale, Image, LUMINANCE, Values};
 use radiosity::patch_at;
-use radiosity::renderer::Shading;
-use radiosity::scene::{Mode, Scene};
-use radiosity::settings::tone_map;
+use radiosity::renderer::{ImageParams, Shading};
+use radiosity::scene::Scene;
+use radiosity::stages::Quantity;
 use std::f64::consts::PI;
 
 /// A quantity to show.
@@ -37,12 +38,17 @@ const GREY: [f64; 3] = [1.0 / 3.0; 3];
 
 impl ShowArgs {
     /// All that is asked for, each once.
-    pub(super) fn looks(&self, scene: &Scene, mesh: &Mesh) -> Result<Vec<Look>, Error> {
+    pub(super) fn looks(
+        &self,
+        scene: &Scene,
+        params: &Params,
+        mesh: &Mesh,
+    ) -> Result<Vec<Look>, Error> {
         let mut shows = self.show.clone();
         if shows.is_empty() && self.factors_of.is_none() {
             shows.push(ShowArg::Light);
         }
-        if shows.contains(&ShowArg::Error) && scene.form_factors.mode != Mode::Accurate {
+        if shows.contains(&ShowArg::Error) && params.form_factors.mode != Mode::Accurate {
             return Err(Error::with_help(
                 "this scene's estimator does not know the errors of form factors",
                 "use --mode accurate",
@@ -50,7 +56,7 @@ impl ShowArgs {
         }
         let is_new = |k: &usize| !shows[..*k].contains(&shows[*k]);
         let new = (0..shows.len()).filter(is_new);
-        let mut looks: Vec<Look> = new.map(|k| Look::of(shows[k], scene)).collect();
+        let mut looks: Vec<Look> = new.map(|k| Look::of(shows[k], &params.image)).collect();
         if let Some(name) = &self.factors_of {
             looks.push(Look::of_factors(name, scene, mesh)?);
         }
@@ -59,14 +65,14 @@ impl ShowArgs {
 }
 
 impl Look {
-    fn of(show: ShowArg, scene: &Scene) -> Look {
+    fn of(show: ShowArg, params: &ImageParams) -> Look {
         let light = |quantity, name| Look {
             quantity,
             name,
             number: None,
         };
         let watts = |weights, has_colors| ("W/m²".to_owned(), weights, has_colors);
-        let lux = LUMINANCE.map(|weight| scene.image.lumens_per_watt * weight);
+        let lux = LUMINANCE.map(|weight| params.lumens_per_watt * weight);
         let ratio = "sum of a row";
         match show {
             ShowArg::Light => light(Quantity::Radiosity, None),
@@ -137,11 +143,11 @@ impl Look {
         &self,
         image: &Image,
         args: &ShowArgs,
-        scene: &Scene,
+        params: &ImageParams,
         is_fixed: bool,
     ) -> Palette {
         let Some(number) = &self.number else {
-            let tone = tone_map(&scene.image);
+            let tone = params.tone_map();
             return Palette::Tones(if is_fixed {
                 tone.fixed_for(image)
             } else {

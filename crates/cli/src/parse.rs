@@ -1,7 +1,8 @@
 //! Values on the command line.
 
 use clap::builder::{OsStringValueParser, TypedValueParser};
-use radiosity::scene::{Automatic, Exposure, Gamma, MOST_DIMMING, Relaxation, Standard};
+use radiosity::params::NumberOrWord;
+use radiosity::scene::MOST_DIMMING;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -34,12 +35,9 @@ pub(super) fn parse_counts(text: &str) -> Result<(u32, u32), String> {
 }
 
 pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
-    let limits = 1..=1 << 16;
     match parse_counts(text) {
-        Ok((w, h)) if text.contains('x') && limits.contains(&w) && limits.contains(&h) => {
-            Ok((w, h))
-        }
-        _ => Err("expected width and height between 1 and 65536, like 640x480".to_owned()),
+        Ok(size) if text.contains('x') => Ok(size),
+        _ => Err("expected width and height, like 640x480".to_owned()),
     }
 }
 
@@ -76,20 +74,6 @@ fn with_unit(text: &str, units: &[(&str, f64)]) -> Option<f64> {
     (value >= 0.0 && value.is_finite()).then_some(value)
 }
 
-pub(super) fn parse_row_tolerance(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(tolerance) if (1e-6..=0.1).contains(&tolerance) => Ok(tolerance),
-        _ => Err("must be a number from 1e-6 to 0.1".to_owned()),
-    }
-}
-
-pub(super) fn parse_tolerance(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(x) if x > 0.0 && x < 1.0 => Ok(x),
-        _ => Err("expected a number between 0 and 1, like 1e-6".to_owned()),
-    }
-}
-
 pub(super) fn parse_threshold(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(x) if (0.0..1.0).contains(&x) => Ok(x),
@@ -113,44 +97,13 @@ pub(super) fn path_ending_in(
     })
 }
 
-/// `1.2` or `auto`.
-pub(super) fn parse_relaxation(text: &str) -> Result<Relaxation, String> {
-    if text == "auto" {
-        return Ok(Relaxation::Named(Automatic::Auto));
+/// A number, or the word that the parameter may be.
+pub(super) fn number_or_word<T: NumberOrWord>(text: &str) -> Result<T, String> {
+    if text == T::WORD {
+        return Ok(T::new(None));
     }
-    match text.parse() {
-        Ok(factor) if factor > 0.0 && factor < 2.0 => Ok(Relaxation::Factor(factor)),
-        _ => Err("give a number between 0 and 2, neither included, or auto".to_owned()),
-    }
-}
-
-/// `4` or `auto`.
-pub(super) fn parse_exposure(text: &str) -> Result<Exposure, String> {
-    match text {
-        "auto" => Ok(Exposure::Named(Automatic::Auto)),
-        _ => parse_positive(text).map_or_else(
-            |error| Err(format!("{error}, or auto")),
-            |factor| Ok(Exposure::Factor(factor)),
-        ),
-    }
-}
-
-/// `2.2` or `srgb`.
-pub(super) fn parse_gamma(text: &str) -> Result<Gamma, String> {
-    match text {
-        "srgb" => Ok(Gamma::Named(Standard::Srgb)),
-        _ => parse_positive(text).map_or_else(
-            |error| Err(format!("{error}, or srgb")),
-            |gamma| Ok(Gamma::Exponent(gamma)),
-        ),
-    }
-}
-
-pub(super) fn parse_angle(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(angle) if (0.0..=180.0).contains(&angle) => Ok(angle),
-        _ => Err("expected degrees from 0 to 180".to_owned()),
-    }
+    let number = text.parse().map(|number| T::new(Some(number)));
+    number.map_err(|_| format!("expected a number, or {}", T::WORD))
 }
 
 /// A patch by its surface and its place there.
@@ -172,10 +125,8 @@ pub(super) fn parse_top(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn parse_directions(text: &str) -> Result<u32, String> {
-    match text.parse() {
-        Ok(count) if (1..=4096).contains(&count) => Ok(count),
-        _ => Err("expected a number from 1 to 4096; a scene's name goes before it".to_owned()),
-    }
+    let hint = "expected a whole number; a scene's name goes before it";
+    text.parse().map_err(|_| hint.to_owned())
 }
 
 /// `floor:3,4`.

@@ -2,9 +2,8 @@
 
 use crate::error::Error;
 use plotters::prelude::*;
-use radiosity::Pipeline;
-use radiosity::form_factors::FormFactors;
-use radiosity::solver::Method;
+use radiosity::solver::Params;
+use radiosity::stages::Factors;
 
 /// The colours of the methods: of equal lightness, and apart for those who do not tell red from green
 /// (Okabe & Ito 2008).
@@ -24,12 +23,13 @@ struct Course {
 
 /// Solves by each method, and draws the residual after each pass as SVG.
 pub(crate) fn convergence_plot(
-    pipeline: &Pipeline<'_>,
-    form_factors: &FormFactors,
+    scene: &str,
+    factors: &Factors<'_>,
+    params: &Params,
 ) -> Result<String, Error> {
     let mut courses = Vec::new();
-    for ((name, method), color) in Method::RIVALS.into_iter().zip(COLORS) {
-        let residuals = pipeline.solve_by(method, form_factors)?.report.residuals;
+    for ((name, params), color) in params.by_each_method().into_iter().zip(COLORS) {
+        let residuals = factors.solution(&params)?.report.residuals;
         courses.push(Course {
             name,
             color,
@@ -37,7 +37,7 @@ pub(crate) fn convergence_plot(
         });
     }
     let mut svg = String::new();
-    let drawn = draw(&mut svg, &pipeline.scene().name, &courses);
+    let drawn = draw(&mut svg, scene, &courses);
     // Drawing fails where a file cannot be written; this is in memory.
     drawn.expect("a string takes every drawing");
     Ok(svg)

@@ -49,7 +49,7 @@ impl Palette {
             Palette::Tones(tone) => {
                 let exposure = match tone.exposure {
                     Exposure::Fixed(factor) => format!("{factor}"),
-                    Exposure::Automatic { .. } => "automatic".to_owned(),
+                    Exposure::Automatic => "automatic".to_owned(),
                 };
                 vec![
                     ("Quantity", "radiance".to_owned()),

@@ -6,14 +6,15 @@ use super::site::Site;
 use super::terminal::{Terminal, say_json};
 use crate::error::Error;
 use crate::lines::indented;
+use radiosity::geometry::Discretization;
 use radiosity::image::{Image, PictureFormat, encode, encode_pfm};
+use radiosity::params::NumberOrWord;
 use radiosity::reference::{Tracer, cell_means};
+use radiosity::renderer::ImageParams;
 use radiosity::resources::check_image;
 use radiosity::scene::Scene;
-use radiosity::settings::tone_map;
 use radiosity::words::grouped;
-use radiosity::{Observer, Stage};
-use radiosity::{reference_table, table_mesh};
+use radiosity::{Context, Observer, Project, Stage, of_cells, reference_table, subdivide};
 use radiosity_simd::InstructionSet;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -54,16 +55,19 @@ struct PictureReport {
 }
 
 pub(crate) fn run(args: &ReferenceCommand, site: &Site) -> Result<(), Error> {
-    let mut scene = site.load(&args.scene, args.outside)?;
-    args.image.apply(&mut scene);
+    let Project {
+        scene, mut params, ..
+    } = site.load(&args.scene, args.outside)?;
+    args.image.apply(&mut params.image);
+    params.check().map_err(radiosity::Error::from)?;
     let folder = args.output.as_ref().unwrap_or(&site.output);
     make_folder(folder)?;
     let terminal = Terminal::new(args.json);
     with_threads(args.threads, || {
-        let json = if args.cells || args.patches.is_some() {
-            table(args, &scene, folder, &terminal)?
+        let json = if args.cells || args.divisions.is_some() {
+            table(args, &scene, &params.discretization, folder, &terminal)?
         } else {
-            picture(args, &scene, folder, &terminal)?
+            picture(args, &scene, &params.image, folder, &terminal)?
         };
         for path in json.outputs.values() {
             terminal.line(&indented(path));
@@ -79,10 +83,12 @@ pub(crate) fn run(args: &ReferenceCommand, site: &Site) -> Result<(), Error> {
 fn table(
     args: &ReferenceCommand,
     scene: &Scene,
+    params: &Discretization,
     folder: &Path,
     terminal: &Terminal,
 ) -> Result<Json, Error> {
-    let mesh = table_mesh(scene, args.patches)?;
+    let cut = of_cells(params, args.divisions);
+    let mesh = subdivide(scene, &cut, Context::default())?.mesh;
     let (start, patches) = (Instant::now(), mesh.patches.len());
     terminal.begin(Stage::Reference, patches as u64);
     terminal.update(
@@ -115,19 +121,19 @@ fn table(
 fn picture(
     args: &ReferenceCommand,
     scene: &Scene,
+    params: &ImageParams,
     folder: &Path,
     terminal: &Terminal,
 ) -> Result<Json, Error> {
-    let camera = scene
-        .first_camera()
-        .ok_or_else(|| radiosity::Error::no_camera(scene))?;
-    let (width, height) = (scene.image.width, scene.image.height);
-    check_image(width, height)?;
-    let of_mesh = |error| radiosity::Error::of_mesh(scene, &error);
-    let mut tracer = Tracer::new(scene, &camera, args.seed).map_err(of_mesh)?;
+    let camera = scene.first_camera();
+    let camera = camera.ok_or_else(|| radiosity::Error::no_camera(scene))?;
+    check_image(params.width, params.height)?;
+    let tracer = Tracer::new(scene, &camera, params.film(), args.seed);
+    let of_mesh = |error| radiosity::Error::of_mesh(scene, &Discretization::uniform(1), &error);
+    let mut tracer = tracer.map_err(of_mesh)?;
     let start = Instant::now();
-    let percent = trace(args, scene, &mut tracer, folder, terminal)?;
-    let outputs = save(scene, &tracer, folder)?;
+    let percent = trace(args, (scene, params), &mut tracer, folder, terminal)?;
+    let outputs = save(scene, params, &tracer, folder)?;
     let seconds = start.elapsed().as_secs_f64();
     let rate = tracer.vertices() as f64 / seconds / rayon::current_num_threads() as f64;
     terminal.line(&format!(
@@ -155,18 +161,18 @@ fn picture(
 /// its estimated error in percent.
 fn trace(
     args: &ReferenceCommand,
-    scene: &Scene,
+    (scene, params): (&Scene, &ImageParams),
     tracer: &mut Tracer<'_>,
     folder: &Path,
     terminal: &Terminal,
 ) -> Result<f64, Error> {
     let start = Instant::now();
     let mut saved = start;
-    let height = u64::from(scene.image.height);
+    let height = u64::from(params.height);
     terminal.begin(Stage::Reference, height);
     loop {
         tracer.pass(&|rows| terminal.advance(rows));
-        let percent = 100.0 * tracer.relative_error(scene.image.exposure.factor().unwrap_or(0.0));
+        let percent = 100.0 * tracer.relative_error(params.exposure.number().unwrap_or(0.0));
         let passes = tracer.samples() / tracer.samples_per_pass();
         let expected = expected_passes(args, tracer, start.elapsed().as_secs_f64(), percent);
         if passes >= expected {
@@ -179,7 +185,7 @@ fn trace(
             u64::from(expected) * height,
         );
         if saved.elapsed() >= SAVE_INTERVAL {
-            save(scene, tracer, folder)?;
+            save(scene, params, tracer, folder)?;
             saved = Instant::now();
         }
     }
@@ -211,6 +217,7 @@ fn expected_passes(args: &ReferenceCommand, tracer: &Tracer<'_>, seconds: f64, e
 /// Writes radiance and standard error as float maps, and the picture for people.
 fn save(
     scene: &Scene,
+    params: &ImageParams,
     tracer: &Tracer<'_>,
     folder: &Path,
 ) -> Result<BTreeMap<&'static str, String>, Error> {
@@ -224,12 +231,8 @@ fn save(
             .collect(),
     };
     let (radiance, error) = (image(&traced.radiance), image(&traced.standard_error));
-    let tone = tone_map(&scene.image);
-    let png = encode(
-        &tone.apply(&radiance),
-        PictureFormat::Png(tone.transfer),
-        &[],
-    );
+    let levels = params.tone_map().apply(&radiance);
+    let png = encode(&levels, PictureFormat::Png(params.gamma), &[]);
     let files = [
         ("radiance", "reference.pfm", encode_pfm(&radiance)),
         ("standard_error", "reference-error.pfm", encode_pfm(&error)),

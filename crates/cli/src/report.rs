@@ -8,12 +8,11 @@ use crate::lines::{
 use crate::solve_report::{SolveReport, solution_lines};
 use crate::terminal::{Terminal, say_json};
 use radiosity::darkness;
-use radiosity::geometry::Mesh;
 use radiosity::openings;
-use radiosity::scene::Scene;
+use radiosity::solver::Energy;
+use radiosity::stages::{Dimming, Factors, Patches, Solved};
 use radiosity::words::{bytes, grouped};
 use radiosity::{How, Origin};
-use radiosity::{Pipeline, Solved};
 use radiosity::{RowReport, RowSummary};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -68,8 +67,8 @@ pub(crate) struct DisplayReport {
 }
 
 impl<'a> Report<'a> {
-    pub(crate) fn new(scene: &Scene, mesh: &Mesh, terminal: &'a Terminal) -> Report<'a> {
-        let patches = mesh.patches.len();
+    pub(crate) fn new(patches: &Patches<'_>, terminal: &'a Terminal) -> Report<'a> {
+        let (scene, patches) = (patches.scene(), patches.mesh.patches.len());
         terminal.line(&scene_line(scene, patches));
         Report {
             terminal,
@@ -86,8 +85,10 @@ impl<'a> Report<'a> {
         &mut self,
         origin: &Origin,
         rows: &RowSummary,
-        pipeline: &Pipeline<'_>,
+        factors: &Factors<'_>,
     ) {
+        let patches = factors.patches();
+        let (scene, mesh) = (patches.scene(), &patches.mesh);
         self.stage_line("form factors", origin);
         self.terminal
             .line(&indented(&format!("rows {}", row_line(rows))));
@@ -95,32 +96,31 @@ impl<'a> Report<'a> {
         for line in errors.chain(closure_line(rows)) {
             self.terminal.line(&indented(&line));
         }
-        if pipeline.scene().closed {
+        if scene.closed {
             self.terminal.line(&indented(&closed_line(rows)));
             if openings::show_in_rows(rows) {
-                for line in openings::warnings(pipeline.scene(), pipeline.mesh()) {
+                for line in openings::warnings(scene, mesh) {
                     self.terminal.line(&indented(&line));
                 }
             }
         }
         if let Some(classes) = &rows.classes {
-            let patches = pipeline.mesh().patches.len();
-            self.terminal.line(&indented(&class_line(classes, patches)));
+            let line = class_line(classes, mesh.patches.len());
+            self.terminal.line(&indented(&line));
         }
         if rows.excessive > 0
-            && let Some(weakness) = pipeline.known_weakness()
+            && let Some(weakness) = factors.known_weakness()
         {
-            let patches = pipeline.mesh().patches.len() as u64;
+            let count = mesh.patches.len() as u64;
             let (sum, patch) = rows.largest;
             self.terminal.line(&indented(&format!(
                 "warning: {} of {} rows sum to more than 1.001, the worst to {sum:.3} (in `{}`): {weakness}",
                 grouped(rows.excessive),
-                grouped(patches),
-                pipeline.surface_name(patch as usize),
+                grouped(count),
+                patches.surface_name(patch as usize),
             )));
         }
-        let surfaces = &pipeline.scene().surfaces;
-        let name = |surface: u32| match surfaces.get(surface as usize) {
+        let name = |surface: u32| match scene.surfaces.get(surface as usize) {
             Some(surface) => surface.name.clone(),
             None => format!("surface {surface}"),
         };
@@ -135,13 +135,19 @@ impl<'a> Report<'a> {
         });
     }
 
-    pub(crate) fn solution(&mut self, solved: &Solved, pipeline: &Pipeline<'_>) {
+    pub(crate) fn solution(
+        &mut self,
+        solved: &Solved<'_>,
+        patches: &Patches<'_>,
+        dimming: &Dimming,
+        energy: &Energy,
+    ) {
         self.stage_line("solution", &solved.origin);
-        let light = darkness::light_lines(pipeline, &solved.energy);
-        for line in solution_lines(solved).into_iter().chain(light) {
+        let light = darkness::light_lines(patches, dimming, energy);
+        for line in solution_lines(solved, energy).into_iter().chain(light) {
             self.terminal.line(&indented(&line));
         }
-        self.json.stages.solve = Some(SolveReport::of(solved));
+        self.json.stages.solve = Some(SolveReport::of(solved, energy));
     }
 
     pub(crate) fn display(&mut self, display: DisplayReport) {

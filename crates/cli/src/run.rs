@@ -1,10 +1,11 @@
 //! What each command does.
 
-use super::args::{Command, EstimateArgs, SolveCommand};
+use super::args::{Command, SolveCommand};
 use super::cache_folder;
 use super::check;
 use super::compare;
 use super::display;
+use super::estimate_args::EstimateArgs;
 use super::form_factors;
 use super::inspect;
 use super::reference;
@@ -15,9 +16,9 @@ use crate::error::Error;
 use crate::plot::convergence_plot;
 use crate::report::Report;
 use radiosity::cache::{Changed, Store, replace_file_by};
-use radiosity::radiosity_table;
-use radiosity::{How, Sources};
-use radiosity::{PatchLight, Pipeline};
+use radiosity::solver::Params;
+use radiosity::stages::{Factors, Solved};
+use radiosity::{Context, Project, estimate, radiosity_table, subdivide};
 use radiosity_simd::InstructionSet;
 use std::io;
 use std::path::Path;
@@ -38,8 +39,8 @@ pub fn run(command: &Command, site: &Site) -> ExitCode {
     let result = match command {
         Command::Render(args) | Command::Display(args) => display::run(args, site),
         Command::FormFactors(args) => form_factors::run(args, site),
-        Command::Solve(args) => solve(args, site, Sources::Computed),
-        Command::Relight(args) => solve(args, site, Sources::Cached),
+        Command::Solve(args) => solve(args, site, true),
+        Command::Relight(args) => solve(args, site, false),
         Command::Reference(args) => reference::run(args, site),
         Command::Compare(args) => compare::run(args, site),
         Command::Check(args) => check::run(args, site),
@@ -55,53 +56,65 @@ pub fn run(command: &Command, site: &Site) -> ExitCode {
     }
 }
 
-/// `sources` says whether a cached solution will do.
-fn solve(args: &SolveCommand, site: &Site, sources: Sources) -> Result<(), Error> {
-    let mut scene = site.load(&args.scene.scene, args.scene.outside)?;
-    args.scene.apply(&mut scene);
-    args.estimate.apply(&mut scene);
-    args.solve.apply(&mut scene);
-    args.lights.apply(&mut scene)?;
+/// `is_anew` says whether a cached solution will not do.
+fn solve(args: &SolveCommand, site: &Site, is_anew: bool) -> Result<(), Error> {
+    let Project {
+        scene, mut params, ..
+    } = args.scene.load(site)?;
+    args.estimate.apply(&mut params.form_factors);
+    args.solve.apply(&mut params.solver);
+    params.check().map_err(radiosity::Error::from)?;
+    let dimming = args.lights.dimming(&scene)?;
     for path in args.export.iter().chain(&args.plot) {
         check_folder_of(path)?;
     }
     let terminal = Terminal::new(args.estimate.json);
     with_threads(args.estimate.threads, || {
         let store = store(&args.estimate, site);
-        let pipeline = Pipeline::new(&scene, store.as_ref(), &terminal)?;
-        let mut report = Report::new(&scene, pipeline.mesh(), &terminal);
-        let (light, _) = light(&pipeline, sources, &mut report)?;
+        let context = Context {
+            cache: store.as_ref(),
+            observer: &terminal,
+        };
+        let patches = subdivide(&scene, &params.discretization, context)?;
+        let factors = estimate(&patches, &params.form_factors)?;
+        let mut report = Report::new(&patches, &terminal);
+        let solved = solved(&factors, &params.solver, is_anew, &mut report)?;
+        let light = solved.relight(&dimming)?;
+        report.solution(&solved, &patches, &dimming, &light.energy);
         if let Some(path) = &args.export {
-            write(
-                path,
-                pipeline.cache(),
-                &radiosity_table(&scene, pipeline.mesh(), &pipeline.mean_radiosity(&light))
-                    .to_csv(),
-            )?;
+            let table = radiosity_table(&scene, &patches.mesh, &light.mean_radiosity());
+            write(path, context.cache, &table.to_csv())?;
             report.output("export", path);
         }
         if let Some(path) = &args.plot {
-            let made = pipeline.form_factors(Sources::Cached)?.form_factors;
-            let plot = convergence_plot(&pipeline, &made)?;
-            write(path, pipeline.cache(), plot.as_bytes())?;
+            let plot = convergence_plot(&scene.name, &factors, &params.solver)?;
+            write(path, context.cache, plot.as_bytes())?;
             report.output("plot", path);
         }
         report.finish()
     })
 }
 
-/// What patches shine with, with each stage reported as soon as it is done; and how the form factors were
-/// come by.
-pub(super) fn light(
-    pipeline: &Pipeline<'_>,
-    sources: Sources,
+/// The solution. Form factors are reported as soon as they are there, and before anything is solved.
+pub(super) fn solved<'a>(
+    factors: &'a Factors<'a>,
+    params: &Params,
+    is_anew: bool,
     report: &mut Report<'_>,
-) -> Result<(PatchLight, How), Error> {
-    let solved = pipeline.solution_after(sources, &mut |origin, rows| {
-        report.form_factors(origin, rows, pipeline);
-    })?;
-    report.solution(&solved, pipeline);
-    Ok((solved.light, solved.form_factors.how))
+) -> Result<Solved<'a>, Error> {
+    let is_cached = !is_anew && factors.have_solution(params);
+    if !is_cached {
+        let made = factors.made()?;
+        report.form_factors(&made.origin, &made.rows, factors);
+    }
+    let solved = match is_anew {
+        true => radiosity::solve_anew(factors, params),
+        false => radiosity::solve(factors, params),
+    }?;
+    if is_cached {
+        report.form_factors(&solved.form_factors, &solved.rows, factors);
+    }
+    Ok(solved)
 }
 
 pub(super) fn store(args: &EstimateArgs, site: &Site) -> Option<Store> {

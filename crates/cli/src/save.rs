@@ -4,7 +4,7 @@ use super::choices::FormatArg;
 use super::print::Print;
 use super::run::write;
 use crate::error::Error;
-use radiosity::Pipeline;
+use radiosity::Params;
 use radiosity::cache::Store;
 #[cfg(feature = "openexr")]
 use radiosity::image::encode_exr;
@@ -12,8 +12,8 @@ use radiosity::image::{
     PictureFormat, Rgb8Image, Transfer, encode, encode_hdr, encode_pfm, encode_png16,
 };
 use radiosity::inspect::EstimatorReport;
-use radiosity::scene::{Light, Scene};
-use radiosity::settings::estimator;
+use radiosity::scene::Light;
+use radiosity::stages::{Dimming, Solved};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -32,15 +32,18 @@ impl<'a> Folder<'a> {
     pub(super) fn new(
         path: &'a Path,
         formats: &'a [FormatArg],
-        pipeline: &Pipeline<'a>,
+        solved: &Solved<'a>,
+        params: &Params,
+        dimming: &Dimming,
     ) -> Folder<'a> {
-        let scene = pipeline.scene();
-        let patches = pipeline.mesh().patches.len();
+        let patches = solved.factors().patches();
+        let scene = patches.scene();
+        let estimator = params.form_factors.estimator();
         let version = concat!("radiosity ", env!("CARGO_PKG_VERSION"));
         let is_new = |k: &usize| !formats[..*k].contains(&formats[*k]);
         Folder {
             path,
-            cache: pipeline.cache(),
+            cache: patches.context().cache,
             formats: (0..formats.len())
                 .filter(is_new)
                 .map(|k| formats[k])
@@ -49,13 +52,14 @@ impl<'a> Folder<'a> {
             metadata: vec![
                 ("Software", version.to_owned()),
                 ("Scene", scene.name.clone()),
-                ("Solution", pipeline.solution_key().to_string()),
-                ("Lights", dimmed_lights(scene)),
+                ("Solution", solved.key.to_string()),
+                ("Lights", dimmed_lights(dimming)),
                 (
                     "Settings",
                     format!(
-                        "{patches} patches; {}",
-                        EstimatorReport::of(estimator(scene)).text()
+                        "{} patches; {}",
+                        patches.mesh.patches.len(),
+                        EstimatorReport::of(estimator).text()
                     ),
                 ),
             ],
@@ -112,12 +116,12 @@ impl<'a> Folder<'a> {
 }
 
 /// The lights that are not as their materials say, each with its factors.
-fn dimmed_lights(scene: &Scene) -> String {
+fn dimmed_lights(dimming: &Dimming) -> String {
     let of_light = |light: &Light| {
         let [r, g, b] = light.dimming();
         (light.dimming() != [1.0; 3]).then(|| format!("{} times {r} {g} {b}", light.name))
     };
-    let dimmed: Vec<String> = scene.lights.iter().filter_map(of_light).collect();
+    let dimmed: Vec<String> = dimming.lights().iter().filter_map(of_light).collect();
     if dimmed.is_empty() {
         "as their materials say".to_owned()
     } else {

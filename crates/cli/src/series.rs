@@ -9,15 +9,16 @@ use super::view_args::Shot;
 use crate::error::Error;
 use radiosity::darkness;
 use radiosity::image::{Image, Rgb8Image, Transfer, contact_sheet, thumbnail_width};
-use radiosity::renderer::{Outlines, Renderer, Shading};
-use radiosity::{PatchLight, Pipeline, Quantity};
+use radiosity::renderer::{ImageParams, Outlines, Renderer, Shading};
+use radiosity::stages::{Factors, PatchLight, Quantity, render_by, show};
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
 
 /// What is to be made, and what has been.
 pub(super) struct Series<'a> {
     pub(super) args: &'a DisplayArgs,
-    pub(super) pipeline: &'a Pipeline<'a>,
+    pub(super) params: &'a ImageParams,
+    pub(super) factors: &'a Factors<'a>,
     pub(super) looks: &'a [Look],
     pub(super) shots: &'a [Shot],
     pub(super) live: Live,
@@ -38,12 +39,14 @@ impl Series<'_> {
     pub(super) fn take(&mut self, light: &PatchLight) -> Result<(), Error> {
         for look in self.looks {
             let shadings = look.shadings(&self.args.shadings());
-            let shown = self.pipeline.shown(light, look.quantity)?;
-            let renderer = self.pipeline.renderer(&shown, &shadings);
+            let patches = self.factors.patches();
+            let shown = show(self.factors, light, look.quantity)?;
+            let renderer = shown.renderer(&patches.mesh, self.params, &shadings);
             let mut fixed = None;
             for shot in self.shots {
                 self.glance(look, &renderer, shot, fixed.as_ref());
-                let images = self.pipeline.look(&renderer, &shot.camera)?;
+                let camera = &shot.camera;
+                let images = render_by(&renderer, camera, self.params, patches.context())?;
                 let is_black = !images.iter().any(Image::shows_something);
                 if is_black && look.quantity == Quantity::Radiosity {
                     self.say_why_black(shot);
@@ -81,9 +84,10 @@ impl Series<'_> {
     fn say_why_black(&self, shot: &Shot) {
         let of_view = shot.name.as_ref();
         let of_view = of_view.map_or(String::new(), |name| format!(" of view `{name}`"));
-        let why = darkness::of_picture(self.pipeline, &shot.camera, self.size());
+        let patches = self.factors.patches();
+        let why = darkness::of_picture(patches, &shot.camera, self.params);
         let warning = format!("warning: the picture{of_view} is black: {why}");
-        self.pipeline.observer().note(&warning);
+        patches.context().observer.note(&warning);
     }
 
     /// Shows a small picture in the terminal.
@@ -95,8 +99,17 @@ impl Series<'_> {
         fixed: Option<&Palette>,
     ) {
         if let Some(small) = self.live.size(self.size()) {
-            let glance = self.pipeline.glance(renderer, &shot.camera, small);
-            let image = glance.last().expect("there is a shading");
+            let (width, height) = small;
+            let few_samples = ImageParams {
+                width,
+                height,
+                subpixels: 1,
+                samples: 4,
+                adaptive: 1,
+                ..*self.params
+            };
+            let images = renderer.render(&shot.camera, &few_samples);
+            let image = images.last().expect("there is a shading");
             let palette = self.palette(look, image, fixed);
             self.live.show(&palette.paint(image));
         }
@@ -123,20 +136,19 @@ impl Series<'_> {
     fn outlines(&self, look: &Look, shot: &Shot) -> Option<Outlines> {
         let show = &self.args.show;
         let has_lines = show.patch_lines || show.isolines && look.is_number();
-        let seen = (&shot.camera, self.pipeline.scene().image.backs);
-        has_lines.then(|| Outlines::new(self.pipeline.mesh(), seen, self.size()))
+        let seen = (&shot.camera, self.params.backs);
+        has_lines.then(|| Outlines::new(&self.factors.patches().mesh, seen, self.size()))
     }
 
     fn palette(&self, look: &Look, image: &Image, fixed: Option<&Palette>) -> Palette {
         let is_film = self.args.views.is_film();
         fixed
             .cloned()
-            .unwrap_or_else(|| look.palette(image, &self.args.show, self.pipeline.scene(), is_film))
+            .unwrap_or_else(|| look.palette(image, &self.args.show, self.params, is_film))
     }
 
     fn size(&self) -> (u32, u32) {
-        let image = &self.pipeline.scene().image;
-        (image.width, image.height)
+        (self.params.width, self.params.height)
     }
 }
 

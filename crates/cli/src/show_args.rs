@@ -1,7 +1,7 @@
 //! What pictures show, on the command line.
 
 use super::choices::ShowArg;
-use super::parse::{PatchName, parse_patch, parse_positive, parse_top};
+use super::parse::{PatchName, parse_patch, parse_top};
 use clap::Args;
 
 /// What pictures show.
@@ -30,6 +30,6 @@ pub struct ShowArgs {
     #[arg(long)]
     pub patch_lines: bool,
     /// Luminous flux of a watt of light, for illuminance [default: the scene's, or 683]
-    #[arg(long, value_name = "LM/W", value_parser = parse_positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "LM/W", allow_negative_numbers = true)]
     pub lumens_per_watt: Option<f64>,
 }

@@ -1,10 +1,10 @@
 //! Where things are kept: in a checkout, or around an installed command.
 
-use super::args::OutsideArgs;
+use super::scene_args::OutsideArgs;
 use super::terminal::tell;
 use crate::error::Error;
 use etcetera::{BaseStrategy, choose_base_strategy};
-use radiosity::scene::{Scene, load_with};
+use radiosity::Project;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
@@ -50,12 +50,12 @@ impl Site {
     }
 
     /// Loads a scene by the path of its file, or by its name.
-    pub(crate) fn load(&self, wanted: &Path, outside: OutsideArgs) -> Result<Scene, Error> {
-        let scene = load_with(&self.path_of(wanted)?, outside.mesh_files())?;
-        for note in &scene.notes {
+    pub(crate) fn load(&self, wanted: &Path, outside: OutsideArgs) -> Result<Project, Error> {
+        let project = Project::open_with(&self.path_of(wanted)?, outside.mesh_files())?;
+        for note in &project.notes {
             tell(&format!("note: {note}"));
         }
-        Ok(scene)
+        Ok(project)
     }
 
     fn path_of(&self, wanted: &Path) -> Result<PathBuf, Error> {

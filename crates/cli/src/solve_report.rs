@@ -1,7 +1,7 @@
 //! What there is to say of a solution.
 
-use radiosity::Solved;
 use radiosity::solver::{Convergence, Energy, Method};
+use radiosity::stages::Solved;
 use serde::Serialize;
 
 /// Fields may be added, but not changed or removed.
@@ -43,14 +43,14 @@ struct EnergyReport {
 }
 
 impl SolveReport {
-    pub(crate) fn of(solved: &Solved) -> SolveReport {
+    pub(crate) fn of(solved: &Solved<'_>, energy: &Energy) -> SolveReport {
         let report = &solved.solution.report;
         SolveReport {
             seconds: solved.origin.seconds,
             cached: solved.origin.is_cached(),
             reason: solved.origin.reason().map(str::to_owned),
             method: match report.method {
-                Method::GaussSeidel(_) => "gauss-seidel",
+                Method::GaussSeidel => "gauss-seidel",
                 Method::ConjugateGradients => "conjugate-gradients",
             },
             relaxation: report.relaxation,
@@ -59,7 +59,7 @@ impl SolveReport {
             error: report.error,
             converged: report.converged,
             stalled: report.stalled,
-            energy_balance: EnergyReport::of(&solved.energy),
+            energy_balance: EnergyReport::of(energy),
         }
     }
 }
@@ -79,10 +79,10 @@ impl EnergyReport {
 }
 
 /// The same for people.
-pub(crate) fn solution_lines(solved: &Solved) -> Vec<String> {
+pub(crate) fn solution_lines(solved: &Solved<'_>, energy: &Energy) -> Vec<String> {
     let report = &solved.solution.report;
     let mut lines = vec![course_line(report)];
-    lines.extend(energy_line(&solved.energy));
+    lines.extend(energy_line(energy));
     if !report.converged {
         lines.push(warning(report));
     }
@@ -93,7 +93,7 @@ pub(crate) fn solution_lines(solved: &Solved) -> Vec<String> {
 fn course_line(report: &Convergence) -> String {
     let passes = report.residuals.len();
     let name = match report.method {
-        Method::GaussSeidel(_) => "sweep",
+        Method::GaussSeidel => "sweep",
         Method::ConjugateGradients => "step",
     };
     let plural = if passes == 1 { "" } else { "s" };

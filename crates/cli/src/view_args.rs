@@ -1,7 +1,6 @@
 //! From where pictures are taken, on the command line.
 
-use super::apply::set;
-use super::choices::BacksArg;
+use super::choices::{BACKS, choice};
 use crate::error::Error;
 use clap::Args;
 use radiosity::geometry::{Backs, Camera, Mesh};
@@ -22,8 +21,8 @@ pub struct ViewArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=9999), conflicts_with = "turntable")]
     pub path: Option<u32>,
     /// What is seen of the backs of surfaces [default: black]
-    #[arg(long, value_enum)]
-    pub backs: Option<BacksArg>,
+    #[arg(long, value_parser = choice::<Backs>(&BACKS))]
+    pub backs: Option<Backs>,
     /// Write a sheet of all pictures of the run, too: NAME-sheet.png
     #[arg(long)]
     pub sheet: bool,
@@ -37,14 +36,6 @@ pub(super) struct Shot {
 }
 
 impl ViewArgs {
-    pub(super) fn apply(&self, scene: &mut Scene) {
-        let backs = self.backs.map(|backs| match backs {
-            BacksArg::Black => Backs::Black,
-            BacksArg::Transparent => Backs::Transparent,
-        });
-        set(&mut scene.image.backs, backs);
-    }
-
     /// Whether pictures are frames of a film.
     pub(super) fn is_film(&self) -> bool {
         self.turntable.is_some() || self.path.is_some()

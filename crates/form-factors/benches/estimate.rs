@@ -4,7 +4,7 @@
 #![allow(missing_docs, reason = "criterion's macros write public items")]
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use radiosity_form_factors::{Estimator, estimate};
+use radiosity_form_factors::{Estimation, Estimator};
 use radiosity_geometry::{Divisions, Mesh, Surface, subdivide};
 use radiosity_test_kit::{cut, parallelogram, surface, surfaces};
 
@@ -57,7 +57,7 @@ fn kernels(criterion: &mut Criterion) {
     for (case, mesh) in &cases {
         for (mode, estimator) in modes {
             let id = BenchmarkId::new(mode, case);
-            group.bench_function(id, |b| b.iter(|| estimate(mesh, estimator, &|_| ())));
+            group.bench_function(id, |b| b.iter(|| Estimation::new(mesh, estimator).run()));
         }
     }
     group.finish();
@@ -81,7 +81,7 @@ fn estimators(criterion: &mut Criterion) {
         ),
     ];
     for (name, estimator) in modes {
-        group.bench_function(name, |b| b.iter(|| estimate(&mesh, estimator, &|_| ())));
+        group.bench_function(name, |b| b.iter(|| Estimation::new(&mesh, estimator).run()));
     }
     group.finish();
 }

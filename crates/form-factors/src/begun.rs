@@ -20,6 +20,13 @@ pub struct Begun {
     pub values: Vec<f32>,
     /// Against so many tiles they are estimated.
     tiles: usize,
+    /// And against so many more in the next part.
+    #[serde(skip, default = "one")]
+    step: usize,
+}
+
+fn one() -> usize {
+    1
 }
 
 /// Parts that take less than this are followed by larger ones.
@@ -33,6 +40,7 @@ impl Estimation<'_> {
             values: vec![0.0; pairs],
             rows,
             tiles: 0,
+            step: 1,
         }
     }
 
@@ -43,39 +51,31 @@ impl Estimation<'_> {
             rows,
             values,
             tiles,
+            ..
         } = begun;
         self.next_rows(first, 0).as_ref() == Some(rows)
             && values.len() == packed_len(rows.end) - packed_len(rows.start)
             && *tiles <= self.tiles_before(rows)
     }
 
-    /// Goes on with rows until they are finished, or `is_time` to stop: it is asked after each
-    /// part, of some hundred pairs where pairs are slow. Returns whether they are finished. Adds to
-    /// the tally.
+    /// Goes on with rows for one part: some hundred pairs where pairs are slow. Returns how many
+    /// pairs these are. Adds to the tally.
     ///
-    /// The result depends neither on the number of threads nor on where it stops.
-    pub fn go_on(
-        &self,
-        begun: &mut Begun,
-        tally: &Tally,
-        progress: &(dyn Fn(u64) + Sync),
-        is_time: &(dyn Fn() -> bool + Sync),
-    ) -> bool {
-        let end = self.tiles_before(&begun.rows);
-        let mut step = 1;
-        while begun.tiles < end {
-            let next = end.min(begun.tiles + step);
-            let start = Instant::now();
-            self.fill(begun, begun.tiles..next, tally, progress);
-            begun.tiles = next;
-            if is_time() {
-                break;
-            }
-            if start.elapsed() < STEP {
-                step *= 2;
-            }
+    /// The result depends neither on the number of threads nor on the parts.
+    pub fn go_on(&self, begun: &mut Begun, tally: &Tally) -> u64 {
+        let next = self.tiles_before(&begun.rows).min(begun.tiles + begun.step);
+        let start = Instant::now();
+        let pairs = self.fill(begun, begun.tiles..next, tally);
+        begun.tiles = next;
+        if start.elapsed() < STEP {
+            begun.step *= 2;
         }
-        begun.tiles == end
+        pairs
+    }
+
+    /// Whether rows are estimated against all tiles.
+    pub fn is_finished(&self, begun: &Begun) -> bool {
+        begun.tiles == self.tiles_before(&begun.rows)
     }
 
     /// How many tiles rows are estimated against: those of groups that begin before their end.
@@ -85,14 +85,8 @@ impl Estimation<'_> {
         groups[..count].last().map_or(0, |last| last.tiles.end)
     }
 
-    /// Fills what rows have with some of the tiles.
-    pub(crate) fn fill(
-        &self,
-        begun: &mut Begun,
-        others: Range<usize>,
-        tally: &Tally,
-        progress: &(dyn Fn(u64) + Sync),
-    ) {
+    /// Fills what rows have with some of the tiles, and counts these pairs.
+    pub(crate) fn fill(&self, begun: &mut Begun, others: Range<usize>, tally: &Tally) -> u64 {
         let Begun { rows, values, .. } = begun;
         let strips = self.tiling.strips.iter();
         let tiles = strips
@@ -105,18 +99,19 @@ impl Estimation<'_> {
             (tile, patches.iter().map(&mut take).collect())
         };
         let tiles: Vec<(usize, Vec<&mut [f32]>)> = tiles.map(of_tile).collect();
-        tiles
-            .into_par_iter()
-            .for_each_init(Room::default, |room, (tile, mut rows)| {
-                for (group, others) in self.groups_of(tile, &others) {
-                    let patches = self.tiling.tiles[others.clone()].iter();
-                    let patches = patches.flat_map(|other| &other.patches);
-                    let before = |row: &[f32]| patches.clone().filter(|&&j| j < row.len()).count();
-                    let pairs: usize = rows.iter().map(|row| before(row)).sum();
-                    self.fill_tile(tile, (group, others), &mut rows, room, tally);
-                    progress(pairs as u64);
-                }
-            });
+        let of_tile = |room: &mut Room, (tile, mut rows): (usize, Vec<&mut [f32]>)| {
+            let mut pairs = 0;
+            for (group, others) in self.groups_of(tile, &others) {
+                let patches = self.tiling.tiles[others.clone()].iter();
+                let patches = patches.flat_map(|other| &other.patches);
+                let before = |row: &[f32]| patches.clone().filter(|&&j| j < row.len()).count();
+                pairs += rows.iter().map(|row| before(row)).sum::<usize>() as u64;
+                self.fill_tile(tile, (group, others), &mut rows, room, tally);
+            }
+            pairs
+        };
+        let pairs = tiles.into_par_iter().map_init(Room::default, of_tile);
+        pairs.sum()
     }
 
     /// Of some tiles those in groups that begin before a tile's end, group by group.

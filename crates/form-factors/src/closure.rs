@@ -35,7 +35,7 @@ impl Closure {
     /// Rows whose patches see nothing but fronts, as far as rays tell, are to sum to 1; all others
     /// keep their sums.
     pub fn of(form_factors: &FormFactors) -> Closure {
-        let total: f64 = form_factors.areas.iter().sum();
+        let total = form_factors.total_area;
         let target = |(row, area): (&RowFacts, &f64)| {
             let is_closed = row.backs == 0.0 && row.background == 0.0 && row.fronts > 0.0;
             area / total * if is_closed { 1.0 } else { row.fronts }
@@ -68,9 +68,18 @@ impl Closure {
         }
     }
 
+    /// Scales form factors, in memory.
+    pub fn close(&self, form_factors: &FormFactors) -> FormFactors {
+        let size = form_factors.exchange.size();
+        let mut values = form_factors.exchange.values().to_vec();
+        self.apply(0..size, &mut values);
+        let exchange = SymmetricMatrix::new(size, values).expect("they are as many as before");
+        self.complete(form_factors, exchange)
+    }
+
     /// The form factors with all values scaled: `exchange` has those of [`Closure::apply`].
     pub fn complete(&self, form_factors: &FormFactors, exchange: SymmetricMatrix) -> FormFactors {
-        let total: f64 = form_factors.areas.iter().sum();
+        let total = form_factors.total_area;
         let sums = exchange.row_sums();
         let row = |(i, row): (usize, &RowFacts)| RowFacts {
             fronts: quotient(sums[i] * total, form_factors.areas[i]),
@@ -78,6 +87,7 @@ impl Closure {
         };
         FormFactors {
             areas: form_factors.areas.clone(),
+            total_area: total,
             exchange,
             rows: form_factors.rows.iter().enumerate().map(row).collect(),
             classes: form_factors.classes,

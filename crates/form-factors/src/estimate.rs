@@ -14,19 +14,43 @@ use crate::regular::{Regular, Scratch};
 use crate::surroundings::{Surroundings, around_free_part, look_around};
 use crate::tally::Tally;
 use crate::tiles::{Tile, Tiling};
-use crate::{Estimator, FormFactors};
+use crate::{Closure, Estimator, FormFactors, Params};
 use radiosity_geometry::{Mesh, Patch};
 use radiosity_matrix::{SymmetricMatrix, packed_len};
+use radiosity_params::Parameters;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Estimates all form factors of a mesh. `progress` is told how many further pairs are done,
-/// from any thread.
-pub fn estimate(mesh: &Mesh, estimator: Estimator, progress: &(dyn Fn(u64) + Sync)) -> FormFactors {
-    Estimation::new(mesh, estimator).run(progress)
+/// Estimates all form factors of a mesh.
+///
+/// ```
+/// use radiosity_form_factors::{Params, estimate};
+/// use radiosity_geometry::{DVec3, Divisions, Shape, subdivide};
+///
+/// // Two squares of side 1 that face each other over a distance of 1.
+/// let square = |corner, edge_a, edge_b| Shape::Parallelogram { corner, edge_a, edge_b };
+/// let lower = square(DVec3::ZERO, DVec3::X, DVec3::Y);
+/// let upper = square(DVec3::Z, DVec3::Y, DVec3::X);
+/// let mesh = subdivide(&[lower.into(), upper.into()], Divisions::uniform(1))?;
+/// let factors = estimate(&mesh, &Params::default());
+/// assert!((factors.factor(0, 1) - 0.199_825).abs() < 1e-6);
+/// # Ok::<(), radiosity_geometry::MeshError>(())
+/// ```
+///
+/// # Panics
+///
+/// If a parameter is out of its range.
+pub fn estimate(mesh: &Mesh, params: &Params) -> FormFactors {
+    let checked = params.check();
+    checked.unwrap_or_else(|error| panic!("{error}"));
+    let estimated = Estimation::new(mesh, params.estimator()).run();
+    match params.closure {
+        true => Closure::of(&estimated).close(&estimated),
+        false => estimated,
+    }
 }
 
-/// [`estimate`] in two steps, with a rehearsal between them.
+/// [`estimate`] in steps.
 pub struct Estimation<'a> {
     pub(crate) mesh: &'a Mesh,
     /// By patch.
@@ -138,12 +162,12 @@ impl<'a> Estimation<'a> {
         done
     }
 
-    /// Estimates all pairs. `progress` is told how many further pairs are done, from any thread.
-    pub fn run(&self, progress: &(dyn Fn(u64) + Sync)) -> FormFactors {
+    /// Estimates all pairs.
+    pub fn run(&self) -> FormFactors {
         let size = self.mesh.patches.len();
         let mut all = self.begin(0..size);
         let tally = Tally::new(size);
-        self.fill(&mut all, 0..self.tiling.tiles.len(), &tally, progress);
+        self.fill(&mut all, 0..self.tiling.tiles.len(), &tally);
         let exchange = SymmetricMatrix::new(size, all.values).expect("one value per pair was made");
         self.complete(exchange, &tally)
     }

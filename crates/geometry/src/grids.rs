@@ -1,11 +1,12 @@
 //! How finely faces are cut: counts and edge lengths into grids.
 
+use crate::discretization::Divisions;
 use crate::mesh::{Grid, SurfaceId};
 use crate::narrow::NarrowGrid;
 use crate::polygon::Polygon;
 use crate::polygon_mesh::split_quad;
 use crate::shape::Shape;
-use crate::subdivide::{Divisions, MAX_PATCHES, MeshError, Surface};
+use crate::subdivide::{MAX_PATCHES, MeshError, Surface};
 
 /// A polygon, or its halves, with their grids: a quad of a mesh is halved where its own grid would
 /// have too many cells.

@@ -21,6 +21,7 @@ mod bvh;
 mod camera;
 mod check;
 mod covers;
+mod discretization;
 mod face_block;
 mod film;
 mod grids;
@@ -47,6 +48,7 @@ pub use bundle::{Bundle, Points};
 pub use camera::{Camera, CameraError};
 pub use check::{ShapeError, has_area};
 pub use covers::{Covered, Covers};
+pub use discretization::{Discretization, Divisions};
 pub use film::{Film, PixelFilter};
 pub use glam::{DVec2, DVec3};
 pub use locate::Location;
@@ -60,6 +62,6 @@ pub use remainder::{area_around, fan, remainder};
 pub use screen::{Backs, Linear, Offsets, Screen, Seen, SeenFace};
 pub use shape::Shape;
 pub use subdivide::{
-    Divisions, LEAST_SIZE, MAX_PATCHES, MeshError, Surface, count_patches, subdivide,
+    FaceOrder, LEAST_SIZE, MAX_PATCHES, MeshError, Surface, count_patches, subdivide, subdivide_in,
 };
 pub use walls::Walls;

@@ -112,8 +112,8 @@ pub struct Patch {
 
 /// All patches and the faces they subdivide.
 ///
-/// Order: surfaces in scene order; the faces of a mesh along a space-filling curve
-/// ([`Face::input_index`] keeps the input order); cells in row order.
+/// Order: surfaces as they were given; the faces of each as they were given or along a
+/// space-filling curve ([`FaceOrder`](crate::FaceOrder)); cells in row order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mesh {
     /// The patches; their index is their identity everywhere later.
@@ -128,6 +128,20 @@ impl Mesh {
     /// The face that a patch is a cell of.
     pub fn face_of(&self, patch: usize) -> &Face {
         &self.faces[self.patches[patch].face.index()]
+    }
+
+    /// The patches of each input face of a surface, if faces are in the order in which they were
+    /// given: the halves of a quad follow each other.
+    pub fn patches_of_surface(&self, surface: SurfaceId) -> Vec<std::ops::Range<usize>> {
+        let own = self.faces.iter().filter(|face| face.surface == surface);
+        let mut ranges: Vec<std::ops::Range<usize>> = Vec::new();
+        for face in own {
+            match ranges.get_mut(face.input_index as usize) {
+                Some(range) => range.end = face.patches().end,
+                None => ranges.push(face.patches()),
+            }
+        }
+        ranges
     }
 
     /// The smallest box around all faces.

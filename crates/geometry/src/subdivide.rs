@@ -4,37 +4,12 @@
 
 use crate::check::ShapeError;
 use crate::covers::Covers;
+use crate::discretization::Divisions;
 use crate::grids::with_grids;
 use crate::mesh::{Face, FaceId, Grid, Mesh, Patch, SurfaceId};
 use crate::morton;
 use crate::polygon::Polygon;
 use crate::shape::Shape;
-
-/// How finely a surface is cut.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Divisions {
-    /// `a x b` cells on parallelograms and quads; `a^2` on triangles, where `a` equals `b`.
-    Count {
-        /// Cells along edge a.
-        a: u32,
-        /// Cells along edge b.
-        b: u32,
-    },
-    /// As few cells as keep every patch edge at most this long, in scene units. Faces of meshes
-    /// take the next power of two, so that neighbours of different size fit together. Triangles
-    /// that are narrow are cut along each edge as its length asks for, the others alike along all
-    /// edges.
-    MaxEdge(f64),
-    /// No cells at all: the surface stands in the way, and neither emits nor receives.
-    Uncut,
-}
-
-impl Divisions {
-    /// The same count along both edges.
-    pub const fn uniform(n: u32) -> Divisions {
-        Divisions::Count { a: n, b: n }
-    }
-}
 
 /// A shape to be cut, and how finely if not as the scene's default says.
 #[derive(Clone, Debug)]
@@ -45,13 +20,12 @@ pub struct Surface {
     pub divisions: Option<Divisions>,
 }
 
-impl Surface {
-    /// The same shape, cut as the default says, unless it is not to be cut at all.
-    pub fn without_divisions(&self) -> Surface {
-        let is_uncut = |divisions: &Divisions| *divisions == Divisions::Uncut;
+impl From<Shape> for Surface {
+    /// Cut as the default says.
+    fn from(shape: Shape) -> Surface {
         Surface {
-            shape: self.shape.clone(),
-            divisions: self.divisions.filter(is_uncut),
+            shape,
+            divisions: None,
         }
     }
 }
@@ -113,13 +87,45 @@ pub const MAX_PATCHES: usize = 1 << 20;
 /// counts as rounding.
 pub const LEAST_SIZE: f64 = 1e-10;
 
-/// Cuts all surfaces into patches.
+/// In which order the faces of a mesh are numbered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FaceOrder {
+    /// As the caller has them.
+    Given,
+    /// Along a space-filling curve: what is near in space is near in the matrix, and large meshes
+    /// take less time. [`Face::input_index`] tells where a face was given.
+    Curve,
+}
+
+/// Cuts all surfaces into patches, numbered in the order of surfaces, their faces, and the cells of
+/// these: the patches of face `k` are `mesh.faces[k].patches()`. A quad of a mesh that is not
+/// planar is two faces; [`Mesh::patches_of_surface`] takes them together.
 ///
 /// A count as `default` applies to parallelograms, triangles and quads; the faces of meshes
 /// are patches as they are unless the default is an edge length or the surface has its own
 /// divisions.
+///
+/// ```
+/// use radiosity_geometry::{DVec3, Divisions, Shape, subdivide};
+///
+/// let corners = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+/// let square = Shape::Quad(corners.map(DVec3::from));
+/// let mesh = subdivide(&[square.into()], Divisions::MaxEdge(0.5))?;
+/// assert_eq!(mesh.faces[0].patches(), 0..8);
+/// assert_eq!(mesh.patches[0].area, 0.25);
+/// # Ok::<(), radiosity_geometry::MeshError>(())
+/// ```
 pub fn subdivide(surfaces: &[Surface], default: Divisions) -> Result<Mesh, MeshError> {
-    let faces = uncut_faces(surfaces, default)?;
+    subdivide_in(FaceOrder::Given, surfaces, default)
+}
+
+/// [`subdivide`] with the faces of meshes in an order of choice.
+pub fn subdivide_in(
+    order: FaceOrder,
+    surfaces: &[Surface],
+    default: Divisions,
+) -> Result<Mesh, MeshError> {
+    let faces = uncut_faces(surfaces, default, order)?;
     let mut mesh = Mesh {
         patches: Vec::new(),
         covers: Covers::of(&faces),
@@ -164,16 +170,20 @@ fn check_sizes(faces: &[Face]) -> Result<(), MeshError> {
 
 /// How many patches [`subdivide`] would give, without making them.
 pub fn count_patches(surfaces: &[Surface], default: Divisions) -> Result<usize, MeshError> {
-    let faces = uncut_faces(surfaces, default)?;
+    let faces = uncut_faces(surfaces, default, FaceOrder::Given)?;
     Ok(faces.iter().map(|face| face.grid.cells()).sum())
 }
 
-fn uncut_faces(surfaces: &[Surface], default: Divisions) -> Result<Vec<Face>, MeshError> {
+fn uncut_faces(
+    surfaces: &[Surface],
+    default: Divisions,
+    order: FaceOrder,
+) -> Result<Vec<Face>, MeshError> {
     let mut faces = Vec::new();
     for (index, surface) in surfaces.iter().enumerate() {
         let id = SurfaceId(index as u32);
         let divisions = divisions_of(surface, default);
-        for (input_index, polygon) in ordered_polygons(id, &surface.shape)? {
+        for (input_index, polygon) in polygons_in(order, id, &surface.shape)? {
             for (polygon, grid) in with_grids(id, surface, polygon, divisions)? {
                 faces.push(Face {
                     normal: polygon.normal(),
@@ -205,14 +215,22 @@ fn divisions_of(surface: &Surface, default: Divisions) -> Divisions {
     }
 }
 
-/// The faces of a surface along a space-filling curve, with their input positions.
-fn ordered_polygons(surface: SurfaceId, shape: &Shape) -> Result<Vec<(u32, Polygon)>, MeshError> {
-    let polygons = shape
-        .polygons()
-        .map_err(|error| MeshError::Shape { surface, error })?;
-    let centroids: Vec<_> = polygons.iter().map(|(_, p)| p.centroid()).collect();
-    let order = morton::order(&centroids);
-    Ok(order.into_iter().map(|k| polygons[k]).collect())
+/// The faces of a surface with their input positions.
+fn polygons_in(
+    order: FaceOrder,
+    surface: SurfaceId,
+    shape: &Shape,
+) -> Result<Vec<(u32, Polygon)>, MeshError> {
+    let polygons = shape.polygons();
+    let polygons = polygons.map_err(|error| MeshError::Shape { surface, error })?;
+    Ok(match order {
+        FaceOrder::Given => polygons,
+        FaceOrder::Curve => {
+            let centroids: Vec<_> = polygons.iter().map(|(_, p)| p.centroid()).collect();
+            let order = morton::order(&centroids);
+            order.into_iter().map(|k| polygons[k]).collect()
+        }
+    })
 }
 
 fn new_patch(face: &Face, id: FaceId, cell: [u32; 2], polygon: Polygon) -> Patch {

@@ -11,6 +11,7 @@ use crate::percentile::{is_lit, percentile};
 use crate::rgb8_image::{Rgb8Image, Rgb16Image};
 pub use curve::Curve;
 use dither::noise;
+use radiosity_params::NumberOrWord;
 use rayon::prelude::*;
 pub use transfer::Transfer;
 
@@ -32,11 +33,26 @@ pub struct ToneMap {
 pub enum Exposure {
     /// This one.
     Fixed(f64),
-    /// So that this share of the pixels that are not black is less bright than 1, by luminance.
-    Automatic {
-        /// From 0 to 1.
-        percentile: f64,
-    },
+    /// So that 98 % of the pixels that are not black are less bright than 1, by luminance.
+    Automatic,
+}
+
+/// Of pixels that are not black, so many are less bright than 1 by the automatic exposure.
+const AUTOMATIC_PERCENTILE: f64 = 0.98;
+
+impl NumberOrWord for Exposure {
+    const WORD: &'static str = "auto";
+
+    fn new(number: Option<f64>) -> Exposure {
+        number.map_or(Exposure::Automatic, Exposure::Fixed)
+    }
+
+    fn number(&self) -> Option<f64> {
+        match *self {
+            Exposure::Fixed(factor) => Some(factor),
+            Exposure::Automatic => None,
+        }
+    }
 }
 
 /// What the channels of linear sRGB add to luminance (ITU-R BT.709, item 3.2).
@@ -52,9 +68,10 @@ impl Exposure {
     fn factor(self, image: &Image) -> f32 {
         match self {
             Exposure::Fixed(factor) => factor as f32,
-            Exposure::Automatic { percentile: share } => {
+            Exposure::Automatic => {
                 let luminances = image.pixels.iter().map(|pixel| luminance(*pixel));
-                percentile(luminances.filter(is_lit), share).map_or(1.0, |bright| 1.0 / bright)
+                percentile(luminances.filter(is_lit), AUTOMATIC_PERCENTILE)
+                    .map_or(1.0, |bright| 1.0 / bright)
             }
         }
     }
@@ -167,9 +184,9 @@ mod tests {
         let mut pixels = vec![[0.0; 3]; 500];
         pixels.extend((1..=99).map(|k| [k as f32; 3]));
         pixels.push([1e6; 3]);
-        let exposure = Exposure::Automatic { percentile: 0.9 };
+        let exposure = Exposure::Automatic;
         let factor = exposure.factor(&image(pixels));
-        assert!((1.0 / factor - 90.0).abs() < 1.1, "{factor}");
+        assert!((1.0 / factor - 98.0).abs() < 1.1, "{factor}");
         assert_eq!(exposure.factor(&image(vec![[0.0; 3]])), 1.0);
     }
 

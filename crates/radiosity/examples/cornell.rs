@@ -1,23 +1,20 @@
 //! From a scene file to a picture, `cornell.png` in the folder where it runs:
 //! `cargo run --release --example cornell`.
 
-use radiosity::image::{PictureFormat, encode};
 use radiosity::renderer::Shading;
-use radiosity::settings::{tone_map, transfer};
-use radiosity::{Pipeline, Silent, Sources, scene};
+use radiosity::{Context, Project, estimate, render, save_png, solve, subdivide};
 use std::error::Error;
 
 const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/cornell.toml");
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let scene = scene::load(SCENE.as_ref())?;
-    let pipeline = Pipeline::new(&scene, None, &Silent)?;
-    let solved = pipeline.solution(Sources::Cached)?;
-    let pictures = pipeline.pictures(&solved.light, &[Shading::Smooth])?;
-
-    let levels = tone_map(&scene.image).apply(&pictures[0]);
-    let format = PictureFormat::Png(transfer(scene.image.gamma));
-    std::fs::write("cornell.png", encode(&levels, format, &[]))?;
+    let Project { scene, params, .. } = Project::open(SCENE.as_ref())?;
+    let patches = subdivide(&scene, &params.discretization, Context::default())?;
+    let factors = estimate(&patches, &params.form_factors)?;
+    let light = solve(&factors, &params.solver)?.light()?;
+    let camera = scene.first_camera().ok_or("the scene has no camera")?;
+    let pictures = render(&patches, &light, &camera, &params.image, &[Shading::Smooth])?;
+    save_png("cornell.png".as_ref(), &pictures[0], &params.image)?;
     println!("cornell.png");
     Ok(())
 }

@@ -1,8 +1,8 @@
 //! A mesh made in code, a tent seen from inside, and the form factors between its faces:
 //! `cargo run --release --example own_mesh`.
 
-use radiosity::form_factors::{Estimator, estimate};
-use radiosity::geometry::{DVec3, Divisions, MeshError, PolygonMesh, Shape, Surface, subdivide};
+use radiosity::form_factors::{Params, estimate};
+use radiosity::geometry::{DVec3, Divisions, MeshError, PolygonMesh, Shape, subdivide};
 
 /// Corners are counter-clockwise as seen from inside.
 const FACES: [(&str, &[u32]); 5] = [
@@ -15,22 +15,19 @@ const FACES: [(&str, &[u32]); 5] = [
 
 fn main() -> Result<(), MeshError> {
     let triangle = |z| [[0.0, 0.0, z], [2.0, 0.0, z], [1.0, 1.5, z]].map(DVec3::from);
-    let shape = Shape::Mesh(PolygonMesh {
+    let tent = Shape::Mesh(PolygonMesh {
         positions: [triangle(0.0), triangle(3.0)].concat(),
         faces: FACES.map(|(_, corners)| corners.to_vec()).to_vec(),
     });
-    let divisions = None;
-    let mesh = subdivide(&[Surface { shape, divisions }], Divisions::uniform(1))?;
-    let factors = estimate(&mesh, Estimator::Accurate { tolerance: 1e-4 }, &|_| ());
+    let mesh = subdivide(&[tent.into()], Divisions::default())?;
+    let factors = estimate(&mesh, &Params::default());
 
-    // Patches have an order of their own.
-    let mut order: Vec<usize> = (0..FACES.len()).collect();
-    order.sort_by_key(|&patch| mesh.face_of(patch).input_index);
     let names = FACES.map(|(name, _)| format!("{name:>8}")).concat();
     println!("from \\ to{names}     sum");
-    for ((name, _), &i) in FACES.iter().zip(&order) {
-        let factor = |&j: &usize| format!("{:>8.4}", factors.factor(i, j));
-        let row: String = order.iter().map(factor).collect();
+    for (i, (name, _)) in FACES.iter().enumerate() {
+        let row: String = (0..FACES.len())
+            .map(|j| format!("{:>8.4}", factors.factor(i, j)))
+            .collect();
         println!("{name:<9}{row}{:>8.4}", factors.rows[i].fronts);
     }
     Ok(())

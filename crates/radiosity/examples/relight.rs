@@ -1,8 +1,8 @@
 //! One solution, two settings of the lamps: nothing is solved for the second.
 //! `cargo run --release --example relight`.
 
-use radiosity::solver::relit;
-use radiosity::{Pipeline, Silent, Sources, scene};
+use radiosity::stages::Dimming;
+use radiosity::{Context, Project, estimate, solve, subdivide};
 use std::error::Error;
 
 const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/cornell.toml");
@@ -12,21 +12,23 @@ fn main() -> Result<(), Box<dyn Error>> {
     // A second lamp: the blue wall glows.
     let text = std::fs::read_to_string(SCENE)?;
     let text = text.replace(BLUE, &format!("{BLUE}emission = [0, 0, 0.5]\n"));
-    let scene = scene::parse(SCENE.as_ref(), &text)?;
-    let pipeline = Pipeline::new(&scene, None, &Silent)?;
-    let solved = pipeline.solution(Sources::Cached)?;
+    let Project { scene, params, .. } = Project::parse(SCENE.as_ref(), &text)?;
+    let patches = subdivide(&scene, &params.discretization, Context::default())?;
+    let factors = estimate(&patches, &params.form_factors)?;
+    let solved = solve(&factors, &params.solver)?;
 
     let relight = |lamp: f64, wall: f64| {
-        // The lights are in the order of their materials' names.
-        relit(&solved.solution.lights, &[[wall; 3], [lamp; 3]])
+        let mut dimming = Dimming::of(&scene);
+        dimming.light("lamp")?.dim = lamp;
+        dimming.light("blue")?.dim = wall;
+        solved.relight(&dimming)
     };
-    let (day, night) = (relight(1.0, 0.0), relight(0.05, 1.0));
+    let [day, night] = [relight(1.0, 0.0)?, relight(0.05, 1.0)?];
     println!("W/m^2              day   night");
-    let patches = &pipeline.mesh().patches;
     for (index, surface) in scene.surfaces.iter().enumerate() {
-        let is_own = |&patch: &usize| patches[patch].surface.index() == index;
-        let own: Vec<usize> = (0..patches.len()).filter(is_own).collect();
-        let [day, night] = [mean(&day, &own), mean(&night, &own)];
+        let of_surface = |patch: &usize| patches.mesh.patches[*patch].surface.index() == index;
+        let own: Vec<usize> = (0..patches.mesh.patches.len()).filter(of_surface).collect();
+        let [day, night] = [&day, &night].map(|light| mean(&light.radiosity, &own));
         println!("{:<14}{day:>8.3}{night:>8.3}", surface.name);
     }
     Ok(())

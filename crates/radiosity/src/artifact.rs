@@ -1,5 +1,6 @@
 //! How a stage comes by its artifact: from the cache, or by computing it.
 
+use crate::context::Context;
 use crate::error::Error;
 use crate::observer::Observer;
 use radiosity_cache::{CacheError, Id, Miss, Store};
@@ -7,7 +8,7 @@ use std::path::PathBuf;
 
 /// Whether a stage may take its result from the cache.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sources {
+pub(crate) enum Sources {
     /// Take what is cached, compute what is not.
     Cached,
     /// Compute anew, and cache that.
@@ -50,8 +51,7 @@ pub(crate) struct Recipe<R, M> {
 /// Takes an artifact from the cache, or computes and caches it, one process at a time. A cache that
 /// cannot be used, or not any more, costs a note and nothing else.
 pub(crate) fn obtain<T>(
-    cache: Option<&Store>,
-    observer: &dyn Observer,
+    context: Context<'_>,
     id: &Id<'_>,
     sources: Sources,
     recipe: Recipe<
@@ -59,7 +59,8 @@ pub(crate) fn obtain<T>(
         impl FnOnce(Option<&Store>) -> Result<(T, bool), Error>,
     >,
 ) -> Result<(T, Origin), Error> {
-    let Some(store) = cache else {
+    let observer = context.observer;
+    let Some(store) = context.cache else {
         let reason = "caching is off".to_owned();
         let (artifact, _) = (recipe.make)(None)?;
         return Ok((artifact, Origin::new(How::Computed(reason), None)));

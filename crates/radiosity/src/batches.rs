@@ -71,6 +71,18 @@ impl BatchSize {
     }
 }
 
+impl Finished {
+    /// Nothing yet, of so many patches.
+    pub(crate) fn nothing(patches: usize) -> Finished {
+        Finished {
+            rows: 0,
+            begun: Vec::new(),
+            tally: Tally::new(patches),
+            pairs: 0,
+        }
+    }
+}
+
 impl<'a> Batches<'a> {
     /// After those that are finished.
     pub(crate) fn after(
@@ -85,6 +97,20 @@ impl<'a> Batches<'a> {
             size: BatchSize::first(),
             time: BatchSize::TIME,
             checkpoint: Instant::now(),
+        }
+    }
+
+    /// All values, in memory.
+    pub(crate) fn into_values(mut self) -> (Vec<f32>, Tally) {
+        let size = packed_len(self.estimation.areas().len());
+        let mut values = Vec::with_capacity(size);
+        loop {
+            let rows = self.estimate();
+            if rows.is_empty() && self.finished.begun.is_empty() {
+                return (values, self.finished.tally);
+            }
+            self.size = self.size.next();
+            rows.iter().for_each(|rows| values.extend_from_slice(rows));
         }
     }
 
@@ -118,13 +144,15 @@ impl<'a> Batches<'a> {
             Some(next)
         });
         let go_on = |mut rows: Begun| {
-            let advance = |pairs| {
+            while !estimation.is_finished(&rows) {
+                let pairs = estimation.go_on(&mut rows, tally);
                 more.fetch_add(pairs, Ordering::Relaxed);
                 self.observer.advance(pairs);
-            };
-            let is_time = || start.elapsed() >= self.time;
-            let is_finished = estimation.go_on(&mut rows, tally, &advance, &is_time);
-            (is_finished, rows)
+                if start.elapsed() >= self.time {
+                    break;
+                }
+            }
+            (estimation.is_finished(&rows), rows)
         };
         let mut made: Vec<(bool, Begun)> = next.par_bridge().map(go_on).collect();
         *estimated += more.into_inner();

@@ -27,11 +27,7 @@ pub(crate) fn closed(
     let Some(mut draft) = store.map(begin).transpose()?.flatten() else {
         // The first is in memory already, so there must be room for another.
         job.needs().check_memory()?;
-        let mut values = raw.exchange.values().to_vec();
-        closure.apply(0..raw.exchange.size(), &mut values);
-        let exchange = SymmetricMatrix::new(raw.exchange.size(), values);
-        let exchange = exchange.expect("they are as many as before");
-        return Ok((closure.complete(raw, exchange), false));
+        return Ok((closure.close(raw), false));
     };
     draft.extend(batches(&closure, raw), &|error, _| {
         job.observer

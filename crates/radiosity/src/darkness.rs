@@ -1,10 +1,12 @@
 //! Why pictures are black.
 
 use crate::face_rays::{cosine_rays, spread};
-use crate::pipeline::Pipeline;
+use crate::stages::{Dimming, Patches};
 use crate::words::named;
+use radiosity_form_factors::Mode;
 use radiosity_geometry::{Backs, Camera, DVec2, Face, FaceId, Mesh, Occluders, Patch, Ray};
-use radiosity_scene::{Light, Mode, Scene};
+use radiosity_renderer::ImageParams;
+use radiosity_scene::{Light, Scene};
 use radiosity_solver::Energy;
 use std::collections::BTreeSet;
 
@@ -18,16 +20,16 @@ const MOST_LIGHTS: usize = 64;
 const RAYS: u32 = 24;
 
 /// What a power balance says of pictures that will be black, or nearly so.
-pub fn light_lines(pipeline: &Pipeline<'_>, energy: &Energy) -> Vec<String> {
+pub fn light_lines(patches: &Patches<'_>, dimming: &Dimming, energy: &Energy) -> Vec<String> {
     let sum = |of: [f64; 3]| of.iter().sum::<f64>();
     let emitted = sum(energy.emitted);
     if emitted == 0.0 {
-        return vec![no_light(pipeline.scene(), pipeline.mesh())];
+        return vec![no_light(patches.scene(), &patches.mesh, dimming)];
     }
     let share = |of: [f64; 3]| sum(of) / emitted;
     let (on_backs, out) = (share(energy.to_backs), share(energy.to_background));
     if on_backs > MUCH {
-        let lit = lit_backs(pipeline);
+        let lit = lit_backs(patches);
         let mend = if lit.is_empty() {
             String::new()
         } else {
@@ -51,21 +53,24 @@ pub fn light_lines(pipeline: &Pipeline<'_>, energy: &Energy) -> Vec<String> {
 }
 
 /// Why there is no light at all, if there is none: known without radiosities.
-pub fn of_scene(scene: &Scene, mesh: &Mesh) -> Option<String> {
-    let shines = |face: &Face| is_lit(scene, face) && !is_covered(scene, mesh, face);
+pub fn of_scene(scene: &Scene, mesh: &Mesh, mode: Mode) -> Option<String> {
+    let dimming = Dimming::of(scene);
+    // Only the accurate mode heeds what covers lamps.
+    let is_covered = |face: &Face| mode == Mode::Accurate && is_covered(mesh, face);
+    let shines = |face: &Face| is_lit(scene, &dimming, face) && !is_covered(face);
     let is_dark = !mesh.faces.iter().any(shines);
-    is_dark.then(|| no_light(scene, mesh))
+    is_dark.then(|| no_light(scene, mesh, &dimming))
 }
 
 /// Why there is no light at all.
-fn no_light(scene: &Scene, mesh: &Mesh) -> String {
+fn no_light(scene: &Scene, mesh: &Mesh, dimming: &Dimming) -> String {
     let is_out = |light: &Light| light.dimming() == [0.0; 3];
     let mut faces = mesh.faces.iter();
     let why = if !faces.clone().any(|face| emits(scene, face)) {
         "nothing emits light"
-    } else if scene.lights.iter().all(is_out) {
+    } else if dimming.lights().iter().all(is_out) {
         "all lights are dimmed to nothing"
-    } else if faces.any(|face| is_lit(scene, face)) {
+    } else if faces.any(|face| is_lit(scene, dimming, face)) {
         "other surfaces cover all that emits light"
     } else {
         "nothing is left of the lights as they are dimmed and tinted"
@@ -79,25 +84,28 @@ fn emits(scene: &Scene, face: &Face) -> bool {
     material.emission != [0.0; 3] && !face.is_bare()
 }
 
-/// Whether it emits with its light as bright as the scene has it.
-fn is_lit(scene: &Scene, face: &Face) -> bool {
+/// Whether it emits with its light dimmed.
+fn is_lit(scene: &Scene, dimming: &Dimming, face: &Face) -> bool {
     let material = scene.material(face.surface, face.input_index);
-    scene.dimmed_emission(material) != [0.0; 3] && !face.is_bare()
+    let factor = material
+        .light
+        .map_or([1.0; 3], |light| dimming.factors()[light]);
+    let is_lit = |c: usize| factor[c] * material.emission[c] != 0.0;
+    (0..3).any(is_lit) && !face.is_bare()
 }
 
-/// Whether other faces lie on all of a face, and so take its light. Only the accurate mode heeds
-/// it.
-fn is_covered(scene: &Scene, mesh: &Mesh, face: &Face) -> bool {
+/// Whether other faces lie on all of a face, and so take its light.
+fn is_covered(mesh: &Mesh, face: &Face) -> bool {
     let is_free = |patch: &Patch| match mesh.covers.free_part(&mesh.faces, patch) {
         Some(pieces) => !pieces.is_empty(),
         None => true,
     };
-    scene.form_factors.mode == Mode::Accurate && !mesh.patches[face.patches()].iter().any(is_free)
+    !mesh.patches[face.patches()].iter().any(is_free)
 }
 
 /// The surfaces whose backs light from lamps meets first.
-fn lit_backs<'a>(pipeline: &'a Pipeline<'_>) -> BTreeSet<&'a str> {
-    let (scene, mesh) = (pipeline.scene(), pipeline.mesh());
+fn lit_backs<'a>(patches: &Patches<'a>) -> BTreeSet<&'a str> {
+    let (scene, mesh) = (patches.scene(), &patches.mesh);
     let occluders = Occluders::new(mesh);
     let ids = (0..mesh.faces.len() as u32).map(FaceId);
     let lamps: Vec<FaceId> = ids
@@ -116,8 +124,8 @@ fn lit_backs<'a>(pipeline: &'a Pipeline<'_>) -> BTreeSet<&'a str> {
 }
 
 /// Why a picture that a camera takes is black.
-pub fn of_picture(pipeline: &Pipeline<'_>, camera: &Camera, size: (u32, u32)) -> String {
-    let mesh = pipeline.mesh();
+pub fn of_picture(patches: &Patches<'_>, camera: &Camera, params: &ImageParams) -> String {
+    let (mesh, size) = (&patches.mesh, (params.width, params.height));
     let occluders = Occluders::new(mesh);
     let [origin, across, down] = camera.film(size.0, size.1);
     let (mut fronts, mut backs) = (0, BTreeSet::new());
@@ -130,12 +138,12 @@ pub fn of_picture(pipeline: &Pipeline<'_>, camera: &Camera, size: (u32, u32)) ->
             Some(hit) if hit.front => fronts += 1,
             Some(hit) => {
                 let surface = mesh.faces[hit.face.index()].surface;
-                backs.insert(pipeline.scene().surfaces[surface.index()].name.as_str());
+                backs.insert(patches.scene().surfaces[surface.index()].name.as_str());
             }
             None => {}
         }
     }
-    let is_transparent = pipeline.scene().image.backs == Backs::Transparent;
+    let is_transparent = params.backs == Backs::Transparent;
     // Behind backs that are looked through there may be fronts.
     if fronts > 0 || is_transparent && !backs.is_empty() {
         "no light reaches what the camera sees".to_owned()

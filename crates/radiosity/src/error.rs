@@ -2,8 +2,10 @@
 
 use crate::remedy::Remedy;
 use radiosity_cache::{CacheError, Changed};
-use radiosity_geometry::{Divisions, LEAST_SIZE, MeshError, count_patches};
-use radiosity_scene::{FileKind, Mode, Scene, SceneError};
+use radiosity_form_factors::Mode;
+use radiosity_geometry::{Discretization, LEAST_SIZE, MeshError, count_patches};
+use radiosity_params::OutOfRange;
+use radiosity_scene::{FileKind, Scene, SceneError};
 use radiosity_solver::SolveError;
 
 /// Why a stage ended without its result. What mends it is [`Error::remedy`].
@@ -25,6 +27,17 @@ pub enum Error {
         /// Its name.
         material: String,
     },
+    /// A light was asked for that the scene does not have.
+    #[error("there is no light `{name}`")]
+    NoSuchLight {
+        /// What it was called.
+        name: String,
+        /// What there is.
+        help: String,
+    },
+    /// A parameter has a value that its stage cannot use.
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
     /// The errors of form factors were asked of an estimator that does not tell them.
     #[error("the form factors know nothing of their errors")]
     NoErrors,
@@ -64,7 +77,8 @@ impl Error {
     /// What mends it, if the message does not say it already.
     pub fn remedy(&self) -> Option<Remedy> {
         match self {
-            Error::Scene(_) | Error::NoLight { .. } => None,
+            Error::Scene(_) | Error::NoLight { .. } | Error::OutOfRange(_) => None,
+            Error::NoSuchLight { help, .. } => Some(Remedy::words(help)),
             Error::NoCamera { file } => Some(match file {
                 FileKind::Toml => Remedy::Camera,
                 FileKind::View3D => Remedy::SceneFile,
@@ -85,7 +99,7 @@ impl Error {
     }
 
     /// Names the surface that a mesh error is about.
-    pub fn of_mesh(scene: &Scene, error: &MeshError) -> Error {
+    pub fn of_mesh(scene: &Scene, params: &Discretization, error: &MeshError) -> Error {
         let name = |id: &radiosity_geometry::SurfaceId| &scene.surfaces[id.index()].name;
         let problem = match error {
             MeshError::Shape { surface, error } => format!("surface `{}` {error}", name(surface)),
@@ -107,7 +121,7 @@ impl Error {
                 name(surface),
                 LEAST_SIZE * largest,
             ),
-            MeshError::TooManyPatches => return too_many_patches(scene),
+            MeshError::TooManyPatches => return too_many_patches(scene, params),
             MeshError::Empty => error.to_string(),
         };
         let is_far = matches!(error, MeshError::NoDigits { .. });
@@ -154,8 +168,10 @@ impl Error {
 }
 
 /// Cutting surfaces less helps, unless there are as many before anything is cut.
-fn too_many_patches(scene: &Scene) -> Error {
-    let (problem, remedy) = match count_patches(&scene.undivided(), Divisions::uniform(1)) {
+fn too_many_patches(scene: &Scene, params: &Discretization) -> Error {
+    let by_faces = params.by_faces();
+    let faces = by_faces.of_shapes(scene.shapes());
+    let (problem, remedy) = match count_patches(&faces, by_faces.default) {
         Err(MeshError::TooManyPatches) => (
             "the scene has more than 1,048,576 faces, each of which is a patch at least",
             Remedy::words("use coarser meshes, or split the scene"),
@@ -174,35 +190,29 @@ fn too_many_patches(scene: &Scene) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use radiosity_geometry::{DVec3, PolygonMesh, Shape, Surface};
-
-    const SCENE: &str = "[discretization]\ndivisions = 1\n[materials.m]\nreflectance = 0.5\n\
-        [[surfaces]]\nname = \"s\"\nmaterial = \"m\"\ntriangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\n";
+    use radiosity_geometry::{DVec3, PolygonMesh, Shape};
+    use radiosity_scene::Material;
 
     #[test]
     fn what_helps_a_mesh_is_not_what_helps_a_square() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("s.toml");
-        std::fs::write(&path, SCENE).unwrap();
-        let mut scene = radiosity_scene::load(&path).unwrap();
-        let said = |scene: &Scene| {
-            let error = Error::of_mesh(scene, &MeshError::TooManyPatches);
+        let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+        let said = |shape: Shape| {
+            let mut scene = Scene::new("s");
+            let grey = scene.add_material(Material::reflecting("grey", [0.5; 3]));
+            scene.add_surface("s", shape, grey);
+            let params = Discretization::default();
+            let error = Error::of_mesh(&scene, &params, &MeshError::TooManyPatches);
             format!("{error}: {}", error.remedy().unwrap())
         };
-        let of_squares = said(&scene);
+        let of_triangle = said(Shape::Triangle([corners[0], corners[1], corners[2]]));
         assert!(
-            of_squares.contains("the subdivision gives more than 1,048,576"),
-            "{of_squares}"
+            of_triangle.contains("the subdivision gives more than 1,048,576"),
+            "{of_triangle}"
         );
-        let mesh = PolygonMesh {
-            positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+        let of_mesh = said(Shape::Mesh(PolygonMesh {
+            positions: corners,
             faces: vec![vec![0, 1, 2]; (1 << 20) + 1],
-        };
-        scene.geometry = vec![Surface {
-            shape: Shape::Mesh(mesh),
-            divisions: None,
-        }];
-        let of_mesh = said(&scene);
+        }));
         assert!(of_mesh.contains("coarser meshes"), "{of_mesh}");
         assert!(
             !of_mesh.contains("subdivision") && !of_mesh.contains("fewer patches"),

@@ -1,8 +1,7 @@
 //! Results as tables.
 
-use crate::error::Error;
 use radiosity_compare::{Cell, Row, Table};
-use radiosity_geometry::{Divisions, Face, Mesh, subdivide};
+use radiosity_geometry::{Discretization, Divisions, Face, Mesh};
 use radiosity_reference::CellMean;
 use radiosity_scene::Scene;
 
@@ -21,14 +20,16 @@ pub fn reference_table(scene: &Scene, mesh: &Mesh, cells: &[CellMean]) -> Table 
     table(scene, mesh, mean)
 }
 
-/// The patches of a table: the scene's own, or so many along the edges of each surface, whatever
-/// divisions it has of its own.
-pub fn table_mesh(scene: &Scene, counts: Option<(u32, u32)>) -> Result<Mesh, Error> {
-    let mesh = match counts {
-        Some((a, b)) => subdivide(&scene.undivided(), Divisions::Count { a, b }),
-        None => subdivide(&scene.geometry, scene.divisions),
-    };
-    mesh.map_err(|error| Error::of_mesh(scene, &error))
+/// How finely the patches of a table are cut: as the scene says, or into so many cells along the
+/// edges of each surface, whatever divisions it has.
+pub fn of_cells(params: &Discretization, counts: Option<(u32, u32)>) -> Discretization {
+    match counts {
+        Some((a, b)) => Discretization {
+            default: Divisions::Count { a, b },
+            ..params.by_faces()
+        },
+        None => params.clone(),
+    }
 }
 
 /// The patches that the tables of a scene have, in their order.

@@ -18,7 +18,7 @@ pub const SOLUTION: &str = "solution";
 /// Raise it whenever the layout of [`FactorFacts`] changes: it is part of their keys.
 pub const FACTORS_VERSION: u32 = 10;
 /// The same for [`SolutionFacts`].
-pub const SOLUTION_VERSION: u32 = 11;
+pub const SOLUTION_VERSION: u32 = 12;
 
 /// Beside the matrix of form factors.
 #[derive(Debug, Serialize, Deserialize)]

@@ -8,7 +8,7 @@ use crate::observer::{Observer, Stage};
 use crate::prediction::prediction;
 use crate::resources::Needs;
 use radiosity_cache::{CacheError, Draft, Id, Store, Unusable};
-use radiosity_form_factors::{Estimation, Estimator, FormFactors, Tally};
+use radiosity_form_factors::{Estimation, Estimator, FormFactors};
 use radiosity_geometry::Mesh;
 use radiosity_matrix::{SymmetricMatrix, packed_len};
 
@@ -30,9 +30,12 @@ impl Job<'_> {
 
     fn run_in_memory(&self, estimation: &Estimation<'_>) -> FormFactors {
         self.begin(&self.needs(), 0, estimation);
-        let made = estimation.run(&|pairs| self.observer.advance(pairs));
+        let patches = self.mesh.patches.len();
+        let batches = Batches::after(Finished::nothing(patches), estimation, self.observer);
+        let (values, tally) = batches.into_values();
         self.observer.end();
-        made
+        let exchange = SymmetricMatrix::new(patches, values).expect("all rows are made");
+        estimation.complete(exchange, &tally)
     }
 
     /// In a draft of the artifact's file, which an interrupted run may have begun. The caller has
@@ -57,14 +60,8 @@ impl Job<'_> {
                 Some((draft, finished))
             }
             None => {
-                let nothing = Finished {
-                    rows: 0,
-                    begun: Vec::new(),
-                    tally: Tally::new(needs.patches),
-                    pairs: 0,
-                };
                 let draft = self.begin_draft(store, id, &blank)?;
-                draft.map(|draft| (draft, nothing))
+                draft.map(|draft| (draft, Finished::nothing(needs.patches)))
             }
         };
         let Some((mut draft, finished)) = begun else {

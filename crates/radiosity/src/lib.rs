@@ -1,33 +1,22 @@
 //! The radiosity engine: from a scene file to pictures.
 //!
-//! The whole chain is [`Pipeline`]; each stage is one function of one crate:
+//! | stage | function | of the crate | turns | into |
+//! |---|---|---|---|---|
+//! | | [`Project::open`] | [`scene::parse`] | a file | [`scene::Scene`] and [`Params`] |
+//! | 1 | [`subdivide`] | [`geometry::subdivide`] | surfaces | [`geometry::Mesh`] |
+//! | 2 | [`estimate`] | [`form_factors::estimate`] | the mesh | [`form_factors::FormFactors`] |
+//! | 3 | [`solve`] | [`solver::solve`] | form factors and materials | [`solver::Solution`] |
+//! | 4 | [`render`] | [`renderer::Renderer::render`] | mesh, radiosities, camera | [`image::Image`] |
 //!
-//! | stage | function | turns | into |
-//! |---|---|---|---|
-//! | | [`scene::load`] | a file | [`scene::Scene`] |
-//! | 1 | [`geometry::subdivide`] | surfaces | [`geometry::Mesh`] |
-//! | 2 | [`form_factors::estimate`] | the mesh | [`form_factors::FormFactors`] |
-//! | 3 | [`solver::solve`] | form factors and materials | [`solver::Solution`] |
-//! | 4 | [`renderer::Renderer::render`] | mesh, radiosities, camera | [`image::Image`] |
-//!
-//! Form factors and solutions are kept in a [`cache::Store`], each under the digest of what its
-//! stage reads, so a changed lamp does not touch form factors and a changed camera touches
-//! neither.
-//!
-//! ```no_run
-//! use radiosity::renderer::Shading;
-//! use radiosity::{Pipeline, Silent, Sources, scene};
-//!
-//! let scene = scene::load("scenes/cornell.toml".as_ref())?;
-//! let pipeline = Pipeline::new(&scene, None, &Silent)?;
-//! let solved = pipeline.solution(Sources::Cached)?;
-//! let pictures = pipeline.pictures(&solved.light, &[Shading::Smooth])?;
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
+//! Those of this crate ([`stages`]) add to those of the stages' own crates what a scene and a
+//! machine need: names in errors, a cache, progress, and a look at the memory before it is taken.
+//! Each stage has one struct of parameters, in its own crate.
 
 mod artifact;
 mod batches;
 mod closed;
+mod context;
+pub mod covers;
 pub mod darkness;
 mod error;
 mod export;
@@ -39,25 +28,27 @@ mod job;
 mod machine;
 mod observer;
 pub mod openings;
-mod pipeline;
 mod prediction;
+mod project;
 mod remedy;
 pub mod resources;
 mod row_columns;
 mod row_report;
 mod rows;
-pub mod settings;
+pub mod stages;
 pub mod words;
 
-pub use artifact::{How, Origin, Sources};
+pub use artifact::{How, Origin};
+pub use context::Context;
 pub use error::Error;
-pub use export::{cells, patch_at, radiosity_table, reference_table, table_mesh};
+pub use export::{cells, of_cells, patch_at, radiosity_table, reference_table};
 pub use factor_export::{By, FactorTable};
 pub use observer::{Observer, Silent, Stage};
-pub use pipeline::{FormFactorsMade, PatchLight, Pipeline, Quantity, Shown, Solved, covers};
+pub use project::{Params, Project};
 pub use remedy::Remedy;
 pub use row_report::RowReport;
 pub use rows::{RowSummary, Unbalanced};
+pub use stages::{estimate, render, save_png, solve, solve_anew, subdivide};
 
 pub use radiosity_cache as cache;
 pub use radiosity_compare as compare;
@@ -65,6 +56,7 @@ pub use radiosity_form_factors as form_factors;
 pub use radiosity_geometry as geometry;
 pub use radiosity_image as image;
 pub use radiosity_matrix as matrix;
+pub use radiosity_params as params;
 pub use radiosity_reference as reference;
 pub use radiosity_renderer as renderer;
 pub use radiosity_scene as scene;

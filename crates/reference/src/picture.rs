@@ -4,7 +4,7 @@ use crate::Rgb;
 use crate::path::{Walk, walk};
 use crate::statistics::Samples;
 use crate::world::World;
-use radiosity_geometry::{Camera, DVec2, Divisions, Film, MeshError, subdivide};
+use radiosity_geometry::{Camera, DVec2, Discretization, Film, MeshError, subdivide};
 use radiosity_scene::Scene;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -37,16 +37,15 @@ pub struct Tracer<'a> {
 }
 
 impl<'a> Tracer<'a> {
-    /// Prepares the scene's picture, with its size and filter, as a camera sees it.
-    pub fn new(scene: &Scene, camera: &'a Camera, seed: u64) -> Result<Tracer<'a>, MeshError> {
-        let faces = subdivide(&scene.undivided(), Divisions::uniform(1))?;
-        let image = &scene.image;
-        let film = Film {
-            width: image.width,
-            height: image.height,
-            subpixels: image.subpixels,
-            filter: image.filter,
-        };
+    /// Prepares a picture of the scene on a film, as a camera sees it.
+    pub fn new(
+        scene: &Scene,
+        camera: &'a Camera,
+        film: Film,
+        seed: u64,
+    ) -> Result<Tracer<'a>, MeshError> {
+        let by_faces = Discretization::uniform(1);
+        let faces = subdivide(&by_faces.of_shapes(scene.shapes()), by_faces.default)?;
         let pixels = film.width as usize * film.height as usize;
         Ok(Tracer {
             world: World::new(scene, &faces),

@@ -4,7 +4,7 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use radiosity_geometry::{Camera, DVec3, Divisions, Mesh, Shape, Surface, subdivide};
-use radiosity_renderer::{Fields, ImageParams, Renderer, Shading, ShadingParams};
+use radiosity_renderer::{Fields, ImageParams, Renderer, Shading};
 
 const BOTH: [Shading; 2] = [Shading::Constant, Shading::Smooth];
 
@@ -86,11 +86,8 @@ fn pictures(criterion: &mut Criterion) {
         };
         group.bench_function(name, |b| {
             b.iter(|| {
-                Renderer::new(&mesh, &fields, &ShadingParams::default(), &BOTH).render(
-                    &camera,
-                    &params,
-                    &|_| (),
-                )
+                Renderer::new(&mesh, &fields, &ImageParams::default(), &BOTH)
+                    .render(&camera, &params)
             });
         });
     }

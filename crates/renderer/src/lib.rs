@@ -28,7 +28,7 @@ mod vertex;
 pub use fields::Fields;
 pub use overlay::Outlines;
 pub use params::ImageParams;
-pub use render::{Renderer, Shading, ShadingParams};
+pub use render::{Renderer, Rendering, Shading};
 
 use radiosity_image::Rgb;
 

@@ -6,8 +6,9 @@ use crate::fields::Fields;
 use crate::gather::Gather;
 use crate::interpolate::{Interpolant, PatchCoords, SurfacePoints};
 use crate::irradiance_filter::{Fragment, Gathered};
+use crate::params::ImageParams;
 use crate::pixel_sampler::SampleNumbers;
-use crate::render::{Shading, ShadingParams};
+use crate::render::Shading;
 use radiosity_geometry::{DVec3, Mesh};
 use radiosity_simd::{Float, LANES, Simd};
 
@@ -41,7 +42,7 @@ impl<'a> Shader<'a> {
     pub(crate) fn new(
         mesh: &'a Mesh,
         fields: &Fields<'a>,
-        params: &ShadingParams,
+        params: &ImageParams,
         shadings: &[Shading],
     ) -> Shader<'a> {
         let has = |shading| shadings.contains(&shading);

@@ -5,7 +5,7 @@ use crate::input;
 use crate::obj;
 use crate::signature::foreign;
 use crate::source::{Complaint, SceneError, Source};
-use crate::surface::{Context, Geometry};
+use crate::surface::{Geometry, SurfaceReader};
 use crate::values::{Vector, require, vector};
 use radiosity_geometry::DVec3;
 use serde::Deserialize;
@@ -21,7 +21,7 @@ pub(crate) struct MeshTable {
     translate: Option<Vector>,
 }
 
-impl Context<'_> {
+impl SurfaceReader<'_> {
     pub(crate) fn mesh(&self, table: &MeshTable) -> Result<Geometry, SceneError> {
         let path = self.folder.join(table.file.get_ref());
         let complain = |title: String, help: &str| {

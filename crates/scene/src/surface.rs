@@ -7,8 +7,8 @@ use crate::material::Material;
 use crate::mesh::MeshTable;
 use crate::obj;
 use crate::source::{Complaint, SceneError, Source};
-use crate::values::{Counts, Vector, check_name, divisions, vector};
-use radiosity_geometry::{self as geometry, DVec3, Divisions, Shape};
+use crate::values::{Vector, check_name, vector};
+use radiosity_geometry::{DVec3, Shape};
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -16,11 +16,15 @@ use std::rc::Rc;
 use std::sync::Arc;
 use toml::Spanned;
 
-/// A surface, apart from its shape.
+/// A surface.
 #[derive(Clone, Debug)]
 pub struct Surface {
     /// Its name, unique in the scene.
     pub name: String,
+    /// Its geometry.
+    pub shape: Shape,
+    /// Whether it only stands in the way, and neither emits nor receives.
+    pub is_obstruction: bool,
     /// The group of surfaces that it belongs to, by default one of its own: its name.
     pub group: String,
     /// For meshes whose file names several groups, unless the scene file says which group the
@@ -46,9 +50,19 @@ pub(crate) struct SurfaceTable {
     triangle: Option<Spanned<Vec<Vector>>>,
     quad: Option<Spanned<Vec<Vector>>>,
     mesh: Option<Spanned<MeshTable>>,
-    divisions: Option<Spanned<Counts>>,
-    max_patch_edge: Option<Spanned<f64>>,
 }
+
+/// Its keys; others are for whoever works with the scene.
+pub(crate) const KEYS: [&str; 8] = [
+    "name",
+    "material",
+    "group",
+    "materials",
+    "parallelogram",
+    "triangle",
+    "quad",
+    "mesh",
+];
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -59,7 +73,7 @@ struct ParallelogramTable {
 }
 
 /// What surfaces are checked against.
-pub(crate) struct Context<'a> {
+pub(crate) struct SurfaceReader<'a> {
     pub(crate) source: Source<'a>,
     /// Where the scene file is: mesh paths are relative to it.
     pub(crate) folder: &'a Path,
@@ -79,13 +93,11 @@ pub(crate) struct Geometry {
 /// All surfaces.
 #[derive(Default)]
 pub(crate) struct Surfaces {
-    pub(crate) shapes: Vec<geometry::Surface>,
-    /// What else is known of each, in the same order.
     pub(crate) surfaces: Vec<Surface>,
     pub(crate) notes: Vec<String>,
 }
 
-impl Context<'_> {
+impl SurfaceReader<'_> {
     /// Checks all surfaces.
     pub(crate) fn surfaces(
         &self,
@@ -141,21 +153,10 @@ impl Context<'_> {
             labels,
             notes,
         } = self.geometry(table)?;
-        let polygons = shape.polygons().map_err(|error| {
+        shape.polygons().map_err(|error| {
             let complaint = Complaint::new(format!("surface `{name}` {error}"), "this shape");
             self.source.error(span, &complaint)
         })?;
-        let (counts, max_edge) = (table.divisions.as_ref(), table.max_patch_edge.as_ref());
-        let divisions = divisions(&self.source, counts, max_edge)?;
-        let has_triangles = polygons.iter().any(|(_, polygon)| polygon.is_triangle());
-        if let (Some(Divisions::Count { a, b }), Some(counts)) = (divisions, counts)
-            && has_triangles
-            && a != b
-        {
-            let title = format!("surface `{name}` is made of triangles");
-            let complaint = Complaint::new(title, "give one number");
-            return Err(self.source.error(counts.span(), &complaint));
-        }
         if let Some(group) = &table.group {
             check_name(&self.source, group, "a group")?;
         }
@@ -165,12 +166,13 @@ impl Context<'_> {
         };
         result.surfaces.push(Surface {
             name: name.clone(),
+            shape,
+            is_obstruction: false,
             group: group.clone(),
             groups_of_faces,
             materials: self.materials_of(table, &labels)?,
             polygons: labels.iter().map(|label| label.polygon as u32).collect(),
         });
-        result.shapes.push(geometry::Surface { shape, divisions });
         let notes = notes.iter().map(|note| format!("surface `{name}`: {note}"));
         result.notes.extend(notes);
         Ok(())

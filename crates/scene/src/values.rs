@@ -1,7 +1,7 @@
 //! Values of scene files with more than one spelling, and range checks.
 
 use crate::source::{Complaint, SceneError, Source};
-use radiosity_geometry::{DVec3, Divisions};
+use radiosity_geometry::DVec3;
 use serde::de::{Deserialize, Deserializer, Error, Expected, SeqAccess, Visitor};
 use std::fmt;
 use toml::Spanned;
@@ -9,10 +9,6 @@ use toml::Spanned;
 /// `0.75` or `[0.75, 0.25, 0.25]`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Color(pub(crate) [f64; 3]);
-
-/// `12` or `[12, 8]`.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Counts(pub(crate) u32, pub(crate) u32);
 
 /// `[1, 2, 3]`. An array of three would drop what follows.
 #[derive(Clone, Copy, Debug)]
@@ -62,31 +58,6 @@ impl<'de> Deserialize<'de> for Triple {
             }
         }
         deserializer.deserialize_seq(TripleVisitor)
-    }
-}
-
-impl<'de> Deserialize<'de> for Counts {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Counts, D::Error> {
-        struct CountsVisitor;
-        impl<'de> Visitor<'de> for CountsVisitor {
-            type Value = Counts;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a whole number or two whole numbers [along a, along b]")
-            }
-
-            fn visit_i64<E: Error>(self, value: i64) -> Result<Counts, E> {
-                let unexpected = serde::de::Unexpected::Signed(value);
-                let count =
-                    u32::try_from(value).map_err(|_| Error::invalid_value(unexpected, &self))?;
-                Ok(Counts(count, count))
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, sequence: A) -> Result<Counts, A::Error> {
-                exactly(all(sequence)?, &self, "").map(|[a, b]| Counts(a, b))
-            }
-        }
-        deserializer.deserialize_any(CountsVisitor)
     }
 }
 
@@ -164,39 +135,4 @@ pub(crate) fn vector(source: &Source<'_>, value: &Vector, what: &str) -> Result<
     let finite = |Triple(v): &Triple| v.iter().all(|x| x.is_finite());
     require(source, value, finite, what, "three finite numbers")?;
     Ok(DVec3::from(value.get_ref().0))
-}
-
-/// The subdivision that a table's `divisions` and `max_patch_edge` describe, if any.
-pub(crate) fn divisions(
-    source: &Source<'_>,
-    counts: Option<&Spanned<Counts>>,
-    max_edge: Option<&Spanned<f64>>,
-) -> Result<Option<Divisions>, SceneError> {
-    match (counts, max_edge) {
-        (Some(_), Some(max_edge)) => {
-            let complaint = Complaint::new(
-                "`divisions` and `max_patch_edge` exclude each other",
-                "remove this or `divisions`",
-            );
-            Err(source.error(max_edge.span(), &complaint))
-        }
-        (Some(counts), None) => {
-            let positive = |&Counts(a, b): &Counts| a > 0 && b > 0;
-            require(source, counts, positive, "`divisions`", "at least 1")?;
-            let Counts(a, b) = *counts.get_ref();
-            Ok(Some(Divisions::Count { a, b }))
-        }
-        (None, Some(max_edge)) => {
-            let positive = |&length: &f64| length > 0.0 && length.is_finite();
-            require(
-                source,
-                max_edge,
-                positive,
-                "`max_patch_edge`",
-                "a positive length",
-            )?;
-            Ok(Some(Divisions::MaxEdge(*max_edge.get_ref())))
-        }
-        (None, None) => Ok(None),
-    }
 }

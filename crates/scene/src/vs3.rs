@@ -10,15 +10,11 @@ mod read;
 #[cfg(test)]
 mod tests;
 
-use crate::image::ImageTable;
 use crate::material::Material;
 use crate::scene::{FileKind, Scene};
-use crate::settings::{FormFactorTable, SolverTable};
 use crate::source::{Complaint, SceneError, Source};
 use crate::surface::Surface;
-use radiosity_geometry::{
-    self as geometry, DVec3, Divisions, Polygon, PolygonMesh, Shape, area_around, remainder,
-};
+use radiosity_geometry::{DVec3, Polygon, PolygonMesh, Shape, area_around, remainder};
 use read::{Entry, Kind};
 use std::collections::HashSet;
 
@@ -27,7 +23,7 @@ use std::collections::HashSet;
 const ON_PLANE: f64 = 1e-5;
 
 /// Checks the text of a file.
-pub(crate) fn parse(source: &Source<'_>) -> Result<Scene, SceneError> {
+pub(crate) fn parse(source: &Source<'_>) -> Result<(Scene, Vec<String>), SceneError> {
     let file = read::read(source)?;
     let names = unique_names(&file.entries);
     let groups = groups(&file.entries, &names);
@@ -38,7 +34,7 @@ pub(crate) fn parse(source: &Source<'_>) -> Result<Scene, SceneError> {
             on_each[base].push(entry);
         }
     }
-    let (mut shapes, mut surfaces, mut notes) = (Vec::new(), Vec::new(), file.notes);
+    let (mut surfaces, mut notes) = (Vec::new(), file.notes);
     for (index, entry) in file.entries.iter().enumerate() {
         let Some(shape) = shape(source, entry, &on_each[index])? else {
             let number = entry.number;
@@ -60,29 +56,19 @@ pub(crate) fn parse(source: &Source<'_>) -> Result<Scene, SceneError> {
                 Shape::Mesh(_) => vec![0; faces],
                 _ => Vec::new(),
             },
-        });
-        shapes.push(geometry::Surface {
+            is_obstruction: entry.kind == Kind::Obstruction,
             shape,
-            divisions: (entry.kind == Kind::Obstruction).then_some(Divisions::Uncut),
         });
     }
     let name = source.path.file_stem().unwrap_or_default();
-    Ok(Scene {
+    let scene = Scene {
         kind: FileKind::View3D,
-        name: name.to_string_lossy().into_owned(),
-        geometry: shapes,
         surfaces,
         materials,
-        lights: Vec::new(),
-        camera: None,
-        views: Vec::new(),
-        image: ImageTable::default().check(source)?,
-        divisions: Divisions::uniform(1),
-        form_factors: FormFactorTable::default().check(source)?,
-        solver: SolverTable::default().check(source)?,
         closed: file.closed,
-        notes,
-    })
+        ..Scene::new(&name.to_string_lossy())
+    };
+    Ok((scene, notes))
 }
 
 /// The shape of a surface without those that lie on it, unless they cover it. What only stands in

@@ -4,7 +4,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use radiosity_matrix::{SymmetricMatrix, packed_len};
-use radiosity_solver::{Method, Params, Relaxation, System, relit, solve};
+use radiosity_solver::{Params, System, relit, solve};
 
 fn solutions(criterion: &mut Criterion) {
     for size in [1728, 6912] {
@@ -13,27 +13,13 @@ fn solutions(criterion: &mut Criterion) {
             .expect("one value per pair");
         let mut light = vec![[0.0; 3]; size];
         light[size / 2] = [1.0, 0.5, 0.25];
-        let system = System {
-            exchange: &exchange,
-            areas: &vec![1.0; size],
-            visible: &vec![1.0; size],
-            reflectance: &vec![[0.5, 0.7, 0.9]; size],
-            lights: &[light],
-            backs: &vec![0.0; size],
-            background: &vec![0.0; size],
-        };
+        let (areas, reflectance) = (vec![1.0; size], vec![[0.5, 0.7, 0.9]; size]);
+        let lights = [light];
+        let system = System::new(&exchange, &areas, &reflectance, &lights);
         let mut group = criterion.benchmark_group(format!("{size} patches"));
-        for (name, method) in [
-            ("gauss-seidel", Method::GaussSeidel(Relaxation::Factor(1.0))),
-            ("automatic", Method::GaussSeidel(Relaxation::Automatic)),
-            ("conjugate gradients", Method::ConjugateGradients),
-        ] {
-            let params = Params {
-                method,
-                ..Params::default()
-            };
+        for (name, params) in Params::default().by_each_method() {
             group.bench_function(name, |b| {
-                b.iter(|| solve(&system, &params, &mut |_| ()));
+                b.iter(|| solve(&system, &params));
             });
         }
         group.finish();

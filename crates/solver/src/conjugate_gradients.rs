@@ -34,9 +34,10 @@ use crate::convergence::Progress;
 use crate::problem::{LOST, Problem, Values, joined, ratio, worst};
 use crate::solve::Iteration;
 use radiosity_matrix::Triple;
+use std::rc::Rc;
 
 pub(crate) struct ConjugateGradients<'a> {
-    problem: &'a Problem<'a>,
+    problem: Rc<Problem<'a>>,
     tolerance: f64,
     x: Values<f64>,
     z: Values<f64>,
@@ -61,17 +62,17 @@ struct Verified {
 impl<'a> ConjugateGradients<'a> {
     /// Begins at values whose sums are known.
     pub(crate) fn new(
-        problem: &'a Problem<'a>,
+        problem: Rc<Problem<'a>>,
         (x, sums): (Values<f32>, [Values<f64>; 2]),
         tolerance: f64,
     ) -> ConjugateGradients<'a> {
         let mut iteration = ConjugateGradients {
-            problem,
             tolerance,
             x: Values::new(),
             z: Values::new(),
             p: Values::new(),
             channels: vec![Channel::default(); 3 * problem.lights()],
+            problem,
             best: None,
             is_verified: false,
         };
@@ -86,7 +87,7 @@ impl<'a> ConjugateGradients<'a> {
 
     /// Begins at values whose products are known.
     fn restart(&mut self, x: &[Triple<f32>], sums: &[Triple<f64>]) {
-        let problem = self.problem;
+        let problem = &self.problem;
         let is_black = |k: usize, c: usize| problem.gain[k / problem.lights()][c] == 0.0;
         self.x = x.iter().map(|x| x.map(f64::from)).collect();
         let residual = |k: usize| -> Rgb {

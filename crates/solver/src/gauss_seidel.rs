@@ -26,19 +26,11 @@
 //! which it does not come. Rooms turn out to be alike enough.
 
 use crate::convergence::Progress;
+use crate::params::Relaxation;
 use crate::problem::{LOST, Problem, Values, joined, ratio, worst};
 use crate::solve::Iteration;
 use radiosity_matrix::Triple;
-use serde::{Deserialize, Serialize};
-
-/// How much a change is overdone.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Relaxation {
-    /// By a factor in (0, 2); 1 is plain Gauss-Seidel.
-    Factor(f64),
-    /// By what the rate of the first sweeps suggests.
-    Automatic,
-}
+use std::rc::Rc;
 
 /// After so many sweeps the rate is looked at: the first of them are plain, and few changes are
 /// not yet those that remain.
@@ -52,7 +44,7 @@ const TELLING: f64 = 32.0 * LOST;
 const SWEEPS_AT_REST: usize = 4;
 
 pub(crate) struct GaussSeidel<'a> {
-    problem: &'a Problem<'a>,
+    problem: Rc<Problem<'a>>,
     x: Values<f32>,
     /// `sum_{j<i} S_ij x_j`, and `sum_{j>i} S_ij x_j`.
     sums: [Values<f64>; 2],
@@ -70,7 +62,7 @@ pub(crate) struct GaussSeidel<'a> {
 impl<'a> GaussSeidel<'a> {
     /// Begins at values whose sums are known.
     pub(crate) fn new(
-        problem: &'a Problem<'a>,
+        problem: Rc<Problem<'a>>,
         (x, sums): (Values<f32>, [Values<f64>; 2]),
         relaxation: Relaxation,
     ) -> GaussSeidel<'a> {
@@ -92,7 +84,7 @@ impl<'a> GaussSeidel<'a> {
 
     /// Goes through all rows; keeps the norm of the change.
     fn sweep(&mut self) {
-        let problem = self.problem;
+        let problem = &self.problem;
         self.used = self.factor;
         let (lights, factor) = (problem.lights(), self.factor);
         let [above, below] = &mut self.sums;

@@ -21,6 +21,7 @@ mod convergence;
 mod diagnosis;
 mod energy;
 mod gauss_seidel;
+mod params;
 mod power_iteration;
 mod problem;
 mod solution;
@@ -33,9 +34,9 @@ mod tests;
 pub use convergence::Convergence;
 pub use diagnosis::{SolveError, check_radiosities};
 pub use energy::Energy;
-pub use gauss_seidel::Relaxation;
+pub use params::{Method, Params, Relaxation};
 pub use solution::{Solution, relit};
-pub use solve::{Method, Params, solve};
+pub use solve::{Solver, solve};
 pub use system::System;
 
 /// Raise it whenever the same input would give another solution: it is part of its key.

@@ -3,54 +3,11 @@
 use crate::conjugate_gradients::ConjugateGradients;
 use crate::convergence::Progress;
 use crate::diagnosis::{self, SolveError};
-use crate::gauss_seidel::{GaussSeidel, Relaxation};
+use crate::gauss_seidel::GaussSeidel;
+use crate::params::{Method, Params};
 use crate::problem::{Problem, Values};
 use crate::{Convergence, Energy, Solution, System};
-use serde::{Deserialize, Serialize};
-
-/// How to solve.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Method {
-    /// Row after row, with the newest values of all others.
-    GaussSeidel(Relaxation),
-    /// The fewest passes where light is reflected often.
-    ConjugateGradients,
-}
-
-impl Method {
-    /// The reference and its rivals, with their names, for whoever sets them side by side.
-    pub const RIVALS: [(&'static str, Method); 3] = [
-        ("Gauss-Seidel", Method::GaussSeidel(Relaxation::Factor(1.0))),
-        (
-            "over-relaxation",
-            Method::GaussSeidel(Relaxation::Automatic),
-        ),
-        ("conjugate gradients", Method::ConjugateGradients),
-    ];
-}
-
-/// How to solve, and when to stop.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Params {
-    /// The method.
-    pub method: Method,
-    /// Relative residual `||E + rho F B - B|| / ||E||` to reach (area-weighted L2 norm over
-    /// patches) in each channel of each light. Below some 1e-7, single precision has no better
-    /// solution.
-    pub tolerance: f64,
-    /// Most passes over the matrix to take.
-    pub max_passes: u32,
-}
-
-impl Default for Params {
-    fn default() -> Params {
-        Params {
-            method: Method::GaussSeidel(Relaxation::Automatic),
-            tolerance: 1e-6,
-            max_passes: 200,
-        }
-    }
-}
+use std::rc::Rc;
 
 /// A method on its way.
 pub(crate) trait Iteration {
@@ -64,76 +21,125 @@ pub(crate) trait Iteration {
     fn finish(self: Box<Self>) -> (Values<f32>, Values<f64>);
 }
 
-/// Solves the system for all lights, from `B = E` on. `progress` is told the residual after each
-/// pass.
+/// Solves the system for all lights, from `B = E` on.
+///
+/// ```
+/// use radiosity_matrix::SymmetricMatrix;
+/// use radiosity_solver::{Params, System, solve};
+///
+/// // Two patches of area 1 that see nothing but each other: S_10 = A F / (total area) = 1/2.
+/// let exchange = SymmetricMatrix::new(2, vec![0.5])?;
+/// let lamp = vec![[1.0; 3], [0.0; 3]];
+/// let reflectance = [[0.0; 3], [0.5; 3]];
+/// let system = System::new(&exchange, &[1.0, 1.0], &reflectance, std::slice::from_ref(&lamp));
+/// let solution = solve(&system, &Params::default())?;
+/// assert_eq!(solution.lights[0], [[1.0; 3], [0.5; 3]]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 ///
 /// If there is no solution, or one that single precision does not hold, or if the input has numbers
 /// that are none.
-pub fn solve(
-    system: &System<'_>,
-    params: &Params,
-    progress: &mut dyn FnMut(f64),
-) -> Result<Solution, SolveError> {
-    diagnosis::check_materials(system)?;
-    let problem = Problem::new(system);
-    let mut x = problem.emission.clone();
-    let sums = problem.sums(&mut x);
-    let direct = problem.to_lights(&problem.reflected(&sums));
-    let mut iteration: Box<dyn Iteration + '_> = match params.method {
-        Method::GaussSeidel(relaxation) => {
-            Box::new(GaussSeidel::new(&problem, (x, sums), relaxation))
+pub fn solve(system: &System<'_>, params: &Params) -> Result<Solution, SolveError> {
+    let mut solver = Solver::new(system, params)?;
+    while solver.advance()?.is_some() {}
+    solver.finish()
+}
+
+/// [`solve`] pass by pass, for whoever wants to know how far it is.
+pub struct Solver<'a> {
+    system: &'a System<'a>,
+    params: Params,
+    problem: Rc<Problem<'a>>,
+    iteration: Box<dyn Iteration + 'a>,
+    direct: Vec<Vec<[f32; 3]>>,
+    residuals: Vec<f64>,
+    error: Option<f64>,
+    converged: bool,
+    stalled: bool,
+}
+
+impl<'a> Solver<'a> {
+    /// Begins at `B = E`.
+    pub fn new(system: &'a System<'a>, params: &Params) -> Result<Solver<'a>, SolveError> {
+        diagnosis::check_materials(system)?;
+        let problem = Rc::new(Problem::new(system));
+        let mut x = problem.emission.clone();
+        let sums = problem.sums(&mut x);
+        let direct = problem.to_lights(&problem.reflected(&sums));
+        let (start, shared) = ((x, sums), Rc::clone(&problem));
+        let iteration: Box<dyn Iteration + 'a> = match params.method {
+            Method::GaussSeidel => Box::new(GaussSeidel::new(shared, start, params.relaxation)),
+            Method::ConjugateGradients => {
+                Box::new(ConjugateGradients::new(shared, start, params.residual))
+            }
+        };
+        Ok(Solver {
+            system,
+            params: *params,
+            converged: problem.is_dark(),
+            problem,
+            iteration,
+            direct,
+            residuals: Vec::new(),
+            error: None,
+            stalled: false,
+        })
+    }
+
+    /// Takes one pass over the matrix and tells the residual after it; `None` if there is nothing
+    /// to be done any more.
+    pub fn advance(&mut self) -> Result<Option<f64>, SolveError> {
+        let is_over = self.residuals.len() >= self.params.max_sweeps as usize;
+        if self.converged || self.stalled || is_over {
+            return Ok(None);
         }
-        Method::ConjugateGradients => Box::new(ConjugateGradients::new(
-            &problem,
-            (x, sums),
-            params.tolerance,
-        )),
-    };
-    let mut residuals: Vec<f64> = Vec::new();
-    let (mut converged, mut stalled, mut error) = (problem.is_dark(), false, None);
-    while !converged && !stalled && residuals.len() < params.max_passes as usize {
-        let reached = iteration.advance();
-        progress(reached.residual);
-        residuals.push(reached.residual);
-        converged = reached.residual <= params.tolerance;
-        stalled = !converged && reached.stalled;
-        error = reached.error;
-        if reached.suspicious || diagnosis::is_growing(&residuals) {
-            diagnosis::check_numbers(system)?;
+        let reached = self.iteration.advance();
+        self.residuals.push(reached.residual);
+        self.converged = reached.residual <= self.params.residual;
+        self.stalled = !self.converged && reached.stalled;
+        self.error = reached.error;
+        if reached.suspicious || diagnosis::is_growing(&self.residuals) {
+            diagnosis::check_numbers(self.system)?;
+            diagnosis::check_spectral_radius(self.system)?;
+        }
+        Ok(Some(reached.residual))
+    }
+
+    /// The solution as far as it is.
+    pub fn finish(self) -> Result<Solution, SolveError> {
+        let (system, problem) = (self.system, self.problem);
+        let last = self.residuals.last().copied().unwrap_or(0.0);
+        let is_lost = match self.stalled {
+            true => last > diagnosis::FAR,
+            false => !diagnosis::is_falling(&self.residuals),
+        };
+        if !self.converged && is_lost {
             diagnosis::check_spectral_radius(system)?;
         }
+        let relaxation = self.iteration.relaxation();
+        let (x, sums) = self.iteration.finish();
+        let residual = problem.relative(|k| problem.residual_at(k, &sums[k], &x[k]));
+        let lights = problem.to_lights(&x);
+        diagnosis::check_radiosities(lights.iter().map(Vec::as_slice))?;
+        if !self.converged && residual > diagnosis::WORTHLESS {
+            return Err(SolveError::Worthless { residual });
+        }
+        diagnosis::check_radiosities(self.direct.iter().map(Vec::as_slice))?;
+        Ok(Solution {
+            report: Convergence {
+                method: self.params.method,
+                converged: self.converged,
+                stalled: self.stalled,
+                residual,
+                residuals: self.residuals,
+                error: self.error,
+                relaxation,
+                energies: Energy::of_lights(system, &problem, &x, &sums),
+            },
+            lights,
+            direct: self.direct,
+        })
     }
-    let last = residuals.last().copied().unwrap_or(0.0);
-    let is_lost = match stalled {
-        true => last > diagnosis::FAR,
-        false => !diagnosis::is_falling(&residuals),
-    };
-    if !converged && is_lost {
-        diagnosis::check_spectral_radius(system)?;
-    }
-    let relaxation = iteration.relaxation();
-    let (x, sums) = iteration.finish();
-    let residual = problem.relative(|k| problem.residual_at(k, &sums[k], &x[k]));
-    let lights = problem.to_lights(&x);
-    diagnosis::check_radiosities(lights.iter().map(Vec::as_slice))?;
-    if !converged && residual > diagnosis::WORTHLESS {
-        return Err(SolveError::Worthless { residual });
-    }
-    diagnosis::check_radiosities(direct.iter().map(Vec::as_slice))?;
-    Ok(Solution {
-        report: Convergence {
-            method: params.method,
-            converged,
-            stalled,
-            residual,
-            residuals,
-            error,
-            relaxation,
-            energies: Energy::of_lights(system, &problem, &x, &sums),
-        },
-        lights,
-        direct,
-    })
 }

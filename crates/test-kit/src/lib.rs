@@ -19,6 +19,6 @@ pub use cuboid::{cuboid, cuboid_mesh, inside_out};
 pub use icosphere::icosphere;
 pub use meshes::{cut, mesh_of, surface, surfaces};
 pub use shapes::{Facing, hinged, parallelogram, polygon, quad, square, two_sided};
-pub use shipped::{in_checkout, shipped_scene};
+pub use shipped::{cut_scene, in_checkout, scene_of, shipped_scene};
 pub use statistics::Mean;
 pub use threads::on_threads;

@@ -4,10 +4,7 @@ use radiosity_geometry::{Divisions, Mesh, Shape, Surface, subdivide};
 
 /// A surface that is cut as the mesh says.
 pub fn surface(shape: Shape) -> Surface {
-    Surface {
-        shape,
-        divisions: None,
-    }
+    shape.into()
 }
 
 /// A surface of each shape.

@@ -1,16 +1,17 @@
 //! Pictures with exact direct light and gathered ones, beside the truth and a path tracer.
 
-use super::{RUNS, figure};
+use super::{RUNS, figure, first_camera};
 use crate::Error;
 use crate::figure::{Figure, Target};
 use crate::timing::best_seconds;
 use radiosity::compare::compare_pictures;
+use radiosity::form_factors::Mode;
 use radiosity::geometry::{Divisions, PixelFilter};
 use radiosity::image::{DecodeParams, Decoded, Image, Regions, decode_picture, decode_regions};
+use radiosity::params::NumberOrWord;
 use radiosity::reference::Tracer;
-use radiosity::renderer::Shading;
-use radiosity::scene::{Mode, Scene};
-use radiosity::{Pipeline, Silent, Sources};
+use radiosity::renderer::{ImageParams, Shading};
+use radiosity::{Context, Project, estimate, render, solve, subdivide};
 use std::path::Path;
 use std::time::Instant;
 
@@ -52,8 +53,8 @@ impl Truth {
     }
 
     /// Away from edges, in percent.
-    fn error(&self, found: &Image, scene: &Scene) -> Result<f64, Error> {
-        let exposure = scene.image.exposure.factor().unwrap_or(0.0);
+    fn error(&self, found: &Image, params: &ImageParams) -> Result<f64, Error> {
+        let exposure = params.exposure.number().unwrap_or(0.0);
         let errors = compare_pictures(found, &self.picture, Some(&self.regions), exposure);
         let errors = errors?;
         let away = errors.iter().find(|(name, _)| name == "0-2");
@@ -67,28 +68,36 @@ pub(super) struct View {
     error: f64,
 }
 
-fn nearly_exact(scene: &Scene, divisions: u32) -> Scene {
-    let mut scene = scene.clone();
-    scene.divisions = Divisions::uniform(divisions);
-    scene.form_factors.mode = Mode::Accurate;
-    scene.form_factors.tolerance = TOLERANCE;
-    scene.image.filter = PixelFilter::Box;
-    scene
+fn nearly_exact(project: &Project, divisions: u32) -> Project {
+    let mut project = project.clone();
+    let params = &mut project.params;
+    params.discretization.default = Divisions::uniform(divisions);
+    params.form_factors.mode = Mode::Accurate;
+    params.form_factors.tolerance = TOLERANCE;
+    params.image.filter = PixelFilter::Box;
+    project
 }
 
 /// All light gathered at samples.
 pub(super) fn gathered_view(
-    scene: &Scene,
+    project: &Project,
     divisions: u32,
     truth: &Truth,
 ) -> Result<Vec<Figure>, Error> {
-    let scene = nearly_exact(scene, divisions);
-    let pipeline = Pipeline::new(&scene, None, &Silent)?;
-    let light = pipeline.solution(Sources::Cached)?.light;
+    let project = nearly_exact(project, divisions);
+    let camera = first_camera(&project.scene)?;
+    let patches = subdivide(
+        &project.scene,
+        &project.params.discretization,
+        Context::default(),
+    )?;
+    let factors = estimate(&patches, &project.params.form_factors)?;
+    let light = solve(&factors, &project.params.solver)?.light()?;
     let start = Instant::now();
-    let pictures = pipeline.pictures(&light, &[Shading::Gathered])?;
+    let params = &project.params.image;
+    let pictures = render(&patches, &light, &camera, params, &[Shading::Gathered])?;
     let seconds = start.elapsed().as_secs_f64();
-    let error = truth.error(&pictures[0], &scene)?;
+    let error = truth.error(&pictures[0], params)?;
     let most = Some(Target::Between(0.0, GATHERED_PERCENT));
     let named = |what: &str, value, unit, target| {
         figure(&format!("gathered.{divisions}.{what}"), value, unit, target)
@@ -111,20 +120,27 @@ pub(super) fn gathered_view(
 
 /// Exact direct light, from nearly exact form factors.
 pub(super) fn exact_view(
-    scene: &Scene,
+    project: &Project,
     divisions: u32,
     truth: &Truth,
 ) -> Result<(View, Vec<Figure>), Error> {
-    let scene = nearly_exact(scene, divisions);
+    let project = nearly_exact(project, divisions);
+    let (camera, params) = (first_camera(&project.scene)?, &project.params.image);
     let start = Instant::now();
-    let pipeline = Pipeline::new(&scene, None, &Silent)?;
-    let light = pipeline.solution(Sources::Cached)?.light;
-    let pictures = pipeline.pictures(&light, &[Shading::Exact])?;
+    let patches = subdivide(
+        &project.scene,
+        &project.params.discretization,
+        Context::default(),
+    )?;
+    let factors = estimate(&patches, &project.params.form_factors)?;
+    let light = solve(&factors, &project.params.solver)?.light()?;
+    let pictures = || render(&patches, &light, &camera, params, &[Shading::Exact]);
+    let first = pictures()?;
     let cold = start.elapsed().as_secs_f64();
     let seconds = best_seconds(RUNS, || {
-        std::hint::black_box(pipeline.pictures(&light, &[Shading::Exact]).is_ok());
+        std::hint::black_box(pictures().is_ok());
     });
-    let error = truth.error(&pictures[0], &scene)?;
+    let error = truth.error(&first[0], params)?;
     let most = |most: f64| (divisions == GOOD).then_some(Target::Between(0.0, most));
     let named = |what: &str, value, unit, target| {
         figure(&format!("exact.{divisions}.{what}"), value, unit, target)
@@ -150,16 +166,16 @@ pub(super) fn exact_view(
 /// The time that the path tracer takes to the same error: its square falls with the number of
 /// samples.
 pub(super) fn beside_the_tracer(
-    scene: &Scene,
+    project: &Project,
     truth: &Truth,
     view: &View,
 ) -> Result<Vec<Figure>, Error> {
-    let mut scene = scene.clone();
-    scene.image.filter = PixelFilter::Box;
-    let camera = scene
-        .camera
-        .ok_or_else(|| radiosity::Error::no_camera(&scene))?;
-    let mut tracer = Tracer::new(&scene, &camera, 1)?;
+    let params = ImageParams {
+        filter: PixelFilter::Box,
+        ..project.params.image
+    };
+    let camera = first_camera(&project.scene)?;
+    let mut tracer = Tracer::new(&project.scene, &camera, params.film(), 1)?;
     let start = Instant::now();
     (0..PASSES).for_each(|_| tracer.pass(&|_| ()));
     let seconds = start.elapsed().as_secs_f64();
@@ -175,7 +191,7 @@ pub(super) fn beside_the_tracer(
             .map(|p| p.map(|c| c as f32))
             .collect(),
     };
-    let error = truth.error(&image, &scene)?;
+    let error = truth.error(&image, &params)?;
     let equal = seconds * (error / view.error).powi(2);
     Ok(vec![
         figure(

@@ -1,14 +1,19 @@
 //! What the modes are judged by: long random walks and path-traced pictures.
 
 use crate::Error;
+use crate::display::first_camera;
 use crate::figure::Figure;
 use radiosity::compare::{Errors, Table, compare_pictures, compare_tables};
 use radiosity::geometry::Mesh;
 use radiosity::image::{Decoded, Image};
+use radiosity::params::NumberOrWord;
 use radiosity::reference::{Tracer, cell_means};
 use radiosity::renderer::Shading;
 use radiosity::scene::Scene;
-use radiosity::{Pipeline, Silent, Sources, cells, radiosity_table, reference_table};
+use radiosity::{
+    Context, Params, Project, cells, estimate, radiosity_table, reference_table, render, solve,
+    subdivide,
+};
 
 /// Random walks of the oracle, shared by all patches.
 const WALKS: usize = 40_000_000;
@@ -34,14 +39,15 @@ pub(super) struct Accuracy {
 }
 
 impl Oracle {
-    pub(super) fn of(scene: &Scene) -> Result<Oracle, Error> {
-        let pipeline = Pipeline::new(scene, None, &Silent)?;
-        let mesh = pipeline.mesh();
+    pub(super) fn of(project: &Project) -> Result<Oracle, Error> {
+        let Project { scene, params, .. } = project;
+        let patches = subdivide(scene, &params.discretization, Context::default())?;
+        let mesh = &patches.mesh;
         let walks = WALKS.div_ceil(mesh.patches.len()) as u32;
         let means = cell_means(scene, mesh, walks, 1, &|_| ());
-        let [a, b] = [trace(scene, 2)?, trace(scene, 3)?];
+        let [a, b] = [trace(project, 2)?, trace(project, 3)?];
         // Half their difference has the variance of their mean.
-        let halves = picture_rmse(&a, &decoded(b.clone()), scene)?;
+        let halves = picture_rmse(&a, &decoded(b.clone()), params)?;
         let mean = |(a, b): (&[f32; 3], &[f32; 3])| std::array::from_fn(|c| 0.5 * (a[c] + b[c]));
         let pixels = a.pixels.iter().zip(&b.pixels).map(mean).collect();
         let table = reference_table(scene, mesh, &means);
@@ -66,20 +72,20 @@ impl Oracle {
     }
 
     /// Renders a scene and compares; `None` if it has no solution.
-    pub(super) fn judge(&self, scene: &Scene) -> Result<Option<Accuracy>, Error> {
-        let pipeline = Pipeline::new(scene, None, &Silent)?;
-        let solved = match pipeline.solution(Sources::Cached) {
+    pub(super) fn judge(&self, project: &Project) -> Result<Option<Accuracy>, Error> {
+        let Project { scene, params, .. } = project;
+        let patches = subdivide(scene, &params.discretization, Context::default())?;
+        let factors = estimate(&patches, &params.form_factors)?;
+        let solved = match solve(&factors, &params.solver) {
             Err(radiosity::Error::Unsolvable { .. }) => return Ok(None),
             solved => solved?,
         };
-        let found = radiosity_table(
-            scene,
-            pipeline.mesh(),
-            &pipeline.mean_radiosity(&solved.light),
-        );
-        let all = table_errors(scene, pipeline.mesh(), &found, &self.table)?;
-        let smooth = pipeline.pictures(&solved.light, &[Shading::Smooth])?;
-        let squares = picture_rmse(&smooth[0], &self.picture, scene)?.powi(2);
+        let light = solved.light()?;
+        let found = radiosity_table(scene, &patches.mesh, &light.mean_radiosity());
+        let all = table_errors(scene, &patches.mesh, &found, &self.table)?;
+        let camera = first_camera(scene)?;
+        let smooth = render(&patches, &light, &camera, &params.image, &[Shading::Smooth])?;
+        let squares = picture_rmse(&smooth[0], &self.picture, params)?.powi(2);
         Ok(Some(Accuracy {
             rmse: all.rmse_percent_without_noise(),
             bias: all.bias_percent,
@@ -105,8 +111,8 @@ fn table_errors(
     Ok(errors[errors.len() - 1].1)
 }
 
-fn trace(scene: &Scene, seed: u64) -> Result<Image, Error> {
-    let mut tracer = tracer(scene, seed)?;
+fn trace(project: &Project, seed: u64) -> Result<Image, Error> {
+    let mut tracer = tracer(project, seed)?;
     (0..PASSES).for_each(|_| tracer.pass(&|_| ()));
     let traced = tracer.picture();
     let to_f32 = |pixel: &[f64; 3]| pixel.map(|channel| channel as f32);
@@ -117,12 +123,11 @@ fn trace(scene: &Scene, seed: u64) -> Result<Image, Error> {
     })
 }
 
-pub(super) fn tracer(scene: &Scene, seed: u64) -> Result<Tracer<'_>, Error> {
-    let camera = scene
-        .camera
-        .as_ref()
-        .ok_or_else(|| radiosity::Error::no_camera(scene))?;
-    Ok(Tracer::new(scene, camera, seed)?)
+pub(super) fn tracer(project: &Project, seed: u64) -> Result<Tracer<'_>, Error> {
+    let Project { scene, params, .. } = project;
+    let camera = scene.camera.as_ref();
+    let camera = camera.ok_or_else(|| radiosity::Error::no_camera(scene))?;
+    Ok(Tracer::new(scene, camera, params.image.film(), seed)?)
 }
 
 fn decoded(image: Image) -> Decoded {
@@ -133,12 +138,12 @@ fn decoded(image: Image) -> Decoded {
 }
 
 /// Over the pixels that the reference shows unclamped, in percent of their mean.
-fn picture_rmse(found: &Image, reference: &Decoded, scene: &Scene) -> Result<f64, Error> {
+fn picture_rmse(found: &Image, reference: &Decoded, params: &Params) -> Result<f64, Error> {
     let errors = compare_pictures(
         found,
         reference,
         None,
-        scene.image.exposure.factor().unwrap_or(0.0),
+        params.image.exposure.number().unwrap_or(0.0),
     );
     let errors = errors?;
     Ok(errors[errors.len() - 1].1.rmse_percent)

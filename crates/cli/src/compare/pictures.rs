@@ -7,14 +7,15 @@ use crate::input::read;
 use crate::run::write;
 use crate::signals::remove_unfinished_on_signals;
 use crate::terminal::tell;
+use radiosity::Project;
 use radiosity::compare::{compare_pictures, difference_picture};
 use radiosity::image::{
-    DecodeParams, Decoded, Image, PictureFormat, Transfer, decode_picture, decode_regions, encode,
-    encode_pfm, picture_size,
+    Curve, DecodeParams, Decoded, Image, PictureFormat, Transfer, decode_picture, decode_regions,
+    encode, encode_pfm, picture_size,
 };
+use radiosity::params::NumberOrWord;
+use radiosity::renderer::ImageParams;
 use radiosity::resources::check_comparison;
-use radiosity::scene::{ImageSettings, Scene, Tone};
-use radiosity::settings::transfer;
 use radiosity::words::grouped;
 use std::path::Path;
 
@@ -30,19 +31,22 @@ const BYTES_PER_PIXEL: u64 = 2 * BYTES_OF_IMAGE + 3 * 8;
 const BYTES_OF_REGIONS: u64 = 1 + 3 * 8;
 
 /// The errors by region.
-pub(super) fn pictures(args: &CompareCommand, scene: Option<&Scene>) -> Result<Compared, Error> {
-    if args.patches.is_some() || args.coarsen.is_some() {
-        let problem = "--patches and --coarsen are for tables, not for pictures";
+pub(super) fn pictures(
+    args: &CompareCommand,
+    project: Option<&Project>,
+) -> Result<Compared, Error> {
+    if args.divisions.is_some() || args.coarsen.is_some() {
+        let problem = "--divisions and --coarsen are for tables, not for pictures";
         return Err(Error::input(problem));
     }
-    let image = scene.map(|scene| &scene.image);
+    let image = project.map(|project| &project.params.image);
     let exposure = args
         .exposure
-        .or(image.and_then(|image| image.exposure.factor()));
+        .or(image.and_then(|image| image.exposure.number()));
     let params = DecodeParams {
         exposure: exposure.unwrap_or(1.0),
-        transfer: args.gamma.map(transfer),
-        default_transfer: image.map_or(USUAL, |image| transfer(image.gamma)),
+        transfer: args.gamma,
+        default_transfer: image.map_or(USUAL, |image| image.gamma),
     };
     let all = match args.regions {
         Some(_) => BYTES_PER_PIXEL + BYTES_OF_REGIONS,
@@ -51,7 +55,7 @@ pub(super) fn pictures(args: &CompareCommand, scene: Option<&Scene>) -> Result<C
     let found = picture(&args.found, &params, all)?;
     let reference = picture(&args.reference, &params, all - BYTES_OF_IMAGE)?;
     let is_lost =
-        |image: &ImageSettings| image.tone != Tone::Clamp || image.exposure.factor().is_none();
+        |image: &ImageParams| image.tone != Curve::Clamp || image.exposure.number().is_none();
     if (found.levels || reference.levels) && args.exposure.is_none() && image.is_some_and(is_lost) {
         let problem = "the scene's exposure is automatic, or its tone is a curve: levels do not tell \
                        radiance";

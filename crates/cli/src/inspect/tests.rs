@@ -38,6 +38,7 @@ fn form_factors() -> FormFactors {
         ..
     } = factor_facts();
     FormFactors {
+        total_area: areas.iter().sum(),
         areas,
         exchange: SymmetricMatrix::new(PATCHES, vec![0.0; PAIRS]).unwrap(),
         rows,

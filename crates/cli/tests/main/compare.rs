@@ -109,7 +109,7 @@ fn what_cannot_be_compared_is_said() {
         ("compare none.png a.ppm", "cannot read none.png"),
         (
             "compare a.ppm a.ppm --patches 3",
-            "--patches and --coarsen are for tables",
+            "--divisions and --coarsen are for tables",
         ),
         (
             "compare a.csv a.csv --scene room.toml --gamma 2",

@@ -1,7 +1,7 @@
 //! Lights that are dimmed without solving.
 
 use crate::place::{Place, SCENE};
-use radiosity::{Error, Pipeline, Silent, Sources};
+use radiosity::{Context, Error, Project, estimate, solve, subdivide};
 use std::fs;
 
 /// The radiosities of a table, without its names.
@@ -122,17 +122,26 @@ fn the_oracle_is_dimmed_too() {
 #[test]
 fn light_out_of_range_is_an_error() {
     let place = Place::new();
-    let mut scene = radiosity::scene::load(&place.path("room.toml")).unwrap();
+    let project = Project::open(&place.path("room.toml")).unwrap();
+    let Project {
+        mut scene, params, ..
+    } = project;
     let store = radiosity::cache::Store::new(place.path("c"));
     let lamp = scene.lights[0].name.clone();
     let mut is_solved = |emission: f64, dim: f64| {
         let is_lamp = |material: &&mut radiosity::scene::Material| material.name == lamp;
         scene.materials.iter_mut().find(is_lamp).unwrap().emission = [1.0, emission, 0.0];
         scene.lights[0].dim = dim;
-        let pipeline = Pipeline::new(&scene, Some(&store), &Silent).unwrap();
-        match pipeline.solution(Sources::Cached) {
+        let context = Context {
+            cache: Some(&store),
+            ..Context::default()
+        };
+        let patches = subdivide(&scene, &params.discretization, context).unwrap();
+        let factors = estimate(&patches, &params.form_factors).unwrap();
+        let solved = solve(&factors, &params.solver);
+        match solved.and_then(|solved| solved.light()) {
             Err(Error::Unsolvable { .. }) => false,
-            solved => solved.map(|_| true).unwrap(),
+            light => light.map(|_| true).unwrap(),
         }
     };
     assert!(!is_solved(1e39, 1.0));

@@ -2,13 +2,12 @@
 
 use crate::estimated::run;
 use radiosity_form_factors::{Closure, Estimator, FormFactors};
-use radiosity_geometry::{Divisions, subdivide};
 use radiosity_matrix::SymmetricMatrix;
-use radiosity_test_kit::{Facing, cut, shipped_scene, square};
+use radiosity_test_kit::{Facing, cut, cut_scene, shipped_scene, square};
 
 fn estimated(scene: &str, estimator: Estimator) -> FormFactors {
     let scene = shipped_scene(scene);
-    let mesh = subdivide(&scene.geometry, Divisions::uniform(6)).unwrap();
+    let mesh = cut_scene(&scene, 6);
     run(&mesh, estimator)
 }
 

@@ -1,10 +1,10 @@
 //! Form factors by each estimator, in few words.
 
-use radiosity_form_factors::{Estimator, FormFactors, estimate};
+use radiosity_form_factors::{Estimation, Estimator, FormFactors};
 use radiosity_geometry::Mesh;
 
 pub(crate) fn run(mesh: &Mesh, estimator: Estimator) -> FormFactors {
-    estimate(mesh, estimator, &|_| ())
+    Estimation::new(mesh, estimator).run()
 }
 
 pub(crate) fn regular(mesh: &Mesh, points: u32) -> FormFactors {

@@ -1,14 +1,13 @@
 //! Rows estimated a few at a time are those estimated at once.
 
 use radiosity_form_factors::{Estimation, Estimator, FormFactors, Tally};
-use radiosity_geometry::{Divisions, Mesh, subdivide};
+use radiosity_geometry::Mesh;
 use radiosity_matrix::{SymmetricMatrix, packed_len};
-use radiosity_test_kit::shipped_scene;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use radiosity_test_kit::{cut_scene, shipped_scene};
 
 fn mesh() -> Mesh {
     let scene = shipped_scene("cornell");
-    subdivide(&scene.geometry, Divisions::uniform(5)).unwrap()
+    cut_scene(&scene, 5)
 }
 
 /// Rows a few at a time, each stopped after as many parts as its turn says.
@@ -20,9 +19,11 @@ fn in_pieces(estimation: &Estimation<'_>, size: usize, pairs: u64) -> (FormFacto
         done = rows.end;
         pieces += 1;
         let mut begun = estimation.begin(rows);
-        let asked = AtomicUsize::new(pieces);
-        let is_time = || asked.fetch_add(1, Ordering::Relaxed).is_multiple_of(3);
-        while !estimation.go_on(&mut begun, &tally, &|_| (), &is_time) {}
+        let mut of_rows = 0;
+        while !estimation.is_finished(&begun) {
+            of_rows += estimation.go_on(&mut begun, &tally);
+        }
+        assert_eq!(of_rows as usize, begun.values.len());
         values.extend(begun.values);
     }
     assert_eq!(done, size);
@@ -46,7 +47,7 @@ fn pieces_make_the_whole() {
         Estimator::Accurate { tolerance: 0.01 },
     ] {
         let estimation = Estimation::new(&mesh, estimator);
-        let whole = estimation.run(&|_| ());
+        let whole = estimation.run();
         for (pairs, least) in [(1, 20), (9_999, 4)] {
             let (made, pieces) = in_pieces(&estimation, size, pairs);
             assert!(pieces >= least, "{pieces} pieces");

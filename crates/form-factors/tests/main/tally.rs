@@ -2,13 +2,13 @@
 
 use crate::estimated::accurate;
 use radiosity_form_factors::{Classes, FormFactors};
-use radiosity_geometry::{Divisions, Mesh, subdivide};
+use radiosity_geometry::Mesh;
 use radiosity_matrix::packed_len;
-use radiosity_test_kit::shipped_scene;
+use radiosity_test_kit::{cut_scene, shipped_scene};
 
 fn estimated(scene: &str, divisions: u32) -> (Mesh, FormFactors, Classes) {
     let scene = shipped_scene(scene);
-    let mesh = subdivide(&scene.geometry, Divisions::uniform(divisions)).unwrap();
+    let mesh = cut_scene(&scene, divisions);
     let made = accurate(&mesh, 1e-3);
     let classes = made.classes.unwrap();
     (mesh, made, classes)

@@ -2,10 +2,13 @@
 
 use super::luminance;
 use crate::Rgb;
+use serde::{Deserialize, Serialize};
 
 /// A curve from brightness, which has no end, to what a screen shows, from 0 to 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Curve {
+    #[default]
     /// `min(x, 1)`: the course's.
     Clamp,
     /// On the luminance, `L (1 + L / W^2) / (1 + L)`, where `W` is the greatest of the picture

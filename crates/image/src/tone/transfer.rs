@@ -1,5 +1,7 @@
 //! The curve of a screen, from brightness to levels.
 
+use radiosity_params::NumberOrWord;
+
 /// How a level becomes brightness, and the other way round.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Transfer {
@@ -7,6 +9,21 @@ pub enum Transfer {
     Gamma(f64),
     /// A line near black and `((level + 0.055) / 1.055) ^ 2.4` above it (IEC 61966-2-1).
     Srgb,
+}
+
+impl NumberOrWord for Transfer {
+    const WORD: &'static str = "srgb";
+
+    fn new(number: Option<f64>) -> Transfer {
+        number.map_or(Transfer::Srgb, Transfer::Gamma)
+    }
+
+    fn number(&self) -> Option<f64> {
+        match *self {
+            Transfer::Gamma(gamma) => Some(gamma),
+            Transfer::Srgb => None,
+        }
+    }
 }
 
 /// Where brightness becomes the next of 256 levels.

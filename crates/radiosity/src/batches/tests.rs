@@ -2,8 +2,9 @@
 
 use super::*;
 use crate::observer::Silent;
+use crate::{Context, Project, subdivide};
 use radiosity_form_factors::Estimator;
-use radiosity_geometry::{Divisions, Mesh, subdivide};
+use radiosity_geometry::{Discretization, Mesh};
 use std::path::Path;
 
 const MS: Duration = Duration::from_millis(1);
@@ -53,8 +54,10 @@ fn fast_rows_are_many_to_a_batch() {
 
 fn mesh() -> Mesh {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    let scene = radiosity_scene::load(&scenes.join("cornell.toml")).unwrap();
-    subdivide(&scene.geometry, Divisions::uniform(6)).unwrap()
+    let project = Project::open(&scenes.join("cornell.toml")).unwrap();
+    let params = Discretization::uniform(6);
+    let patches = subdivide(&project.scene, &params, Context::default());
+    patches.unwrap().mesh
 }
 
 /// In batches of one part of a row each, each after a checkpoint that the next begins at.
@@ -62,7 +65,7 @@ fn mesh() -> Mesh {
 fn batches_are_what_is_estimated_at_once() {
     let mesh = mesh();
     let estimation = Estimation::new(&mesh, Estimator::Accurate { tolerance: 0.01 });
-    let whole = estimation.run(&|_| ());
+    let whole = estimation.run();
     for threads in [1, 2, 7] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let pool = pool.build().unwrap();

@@ -1,7 +1,7 @@
 //! Rooms with one fault each, in View3D's format: which surfaces are named.
 
 use super::*;
-use radiosity_geometry::subdivide;
+use crate::{Context, Project, subdivide};
 
 /// The faces of a room of 2 x 3 x 1 by corners 0 to 7, of which bits tell the coordinates, but for
 /// its lid; turned inwards.
@@ -31,9 +31,10 @@ fn warned(faces: &[Face<'_>], more: &[[f64; 3]]) -> Vec<String> {
         let [a, b, c, d] = [0, 1, 2, 3].map(vertex);
         text += &format!("S {} {a} {b} {c} {d} 0 0 0.9 {name}\n", k + 1);
     }
-    let scene = radiosity_scene::parse("room.vs3".as_ref(), &text).unwrap();
-    let mesh = subdivide(&scene.geometry, scene.divisions).unwrap();
-    warnings(&scene, &mesh)
+    let project = Project::parse("room.vs3".as_ref(), &text).unwrap();
+    let params = &project.params.discretization;
+    let patches = subdivide(&project.scene, params, Context::default()).unwrap();
+    warnings(&project.scene, &patches.mesh)
 }
 
 /// The one warning there is.

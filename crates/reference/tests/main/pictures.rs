@@ -1,21 +1,30 @@
 //! Path-traced pictures: against furnaces, against radiosities, and their own errors.
 
 use crate::radiosities::{cut, means};
-use radiosity_geometry::{Camera, DVec3, PixelFilter};
+use radiosity_geometry::{Camera, DVec3, Film, PixelFilter};
 use radiosity_reference::Tracer;
 use radiosity_scene::Scene;
 use radiosity_test_kit::{on_threads, shipped_scene};
+
+fn film(width: u32, height: u32, filter: PixelFilter) -> Film {
+    Film {
+        width,
+        height,
+        subpixels: 2,
+        filter,
+    }
+}
 
 /// In a furnace the picture is E / (1 - rho) / pi everywhere, its own estimate of its error
 /// holds, and threads leave no trace.
 #[test]
 fn pictures_are_exact_and_know_their_error() {
-    let mut scene = shipped_scene("furnace");
-    (scene.image.width, scene.image.height) = (32, 24);
+    let scene = shipped_scene("furnace");
+    let film = film(32, 24, PixelFilter::Tents);
     let camera = scene.camera.as_ref().unwrap();
     let trace = |threads| {
         on_threads(threads, || {
-            let mut tracer = Tracer::new(&scene, camera, 5).unwrap();
+            let mut tracer = Tracer::new(&scene, camera, film, 5).unwrap();
             (0..64).for_each(|_| tracer.pass(&|_| ()));
             assert_eq!(tracer.samples(), 256);
             (tracer.picture(), tracer.relative_error(0.0))
@@ -58,16 +67,15 @@ fn pictures_and_tables_agree_within_a_percent() {
 /// a block of pixels: their mean radiance is the cell's radiosity over pi. So many walks a cell and
 /// passes of a picture know both to a share of what they are.
 fn agree(walks: u32, passes: u32, precision: f64) {
-    let mut scene = shipped_scene("cornell");
+    let scene = shipped_scene("cornell");
     let mesh = cut(&scene, 4);
     let cells = means(&scene, &mesh, walks, 2);
     // The back wall is 100 wide and 80 high, at z = 0; all that stands before it is cut away.
     let position = DVec3::new(50.0, 40.0, 300.0);
     let vertical_fov = 2.0 * (40.0_f64 / 300.0).atan().to_degrees();
     let camera = Camera::new(position, DVec3::NEG_Z, DVec3::Y, vertical_fov, 299.0).unwrap();
-    (scene.image.width, scene.image.height) = (20, 16);
-    scene.image.filter = PixelFilter::Box;
-    let mut tracer = Tracer::new(&scene, &camera, 3).unwrap();
+    let film = film(20, 16, PixelFilter::Box);
+    let mut tracer = Tracer::new(&scene, &camera, film, 3).unwrap();
     (0..passes).for_each(|_| tracer.pass(&|_| ()));
     let picture = tracer.picture();
     let mut chi_square = 0.0;
@@ -97,10 +105,10 @@ fn agree(walks: u32, passes: u32, precision: f64) {
 #[test]
 fn errors_are_defined_in_the_dark_and_where_all_is_clamped() {
     let mut scene = shipped_scene("furnace");
-    (scene.image.width, scene.image.height) = (8, 6);
+    let film = film(8, 6, PixelFilter::Tents);
     let camera = scene.camera.unwrap();
     let error = |scene: &Scene, exposure| {
-        let mut tracer = Tracer::new(scene, &camera, 5).unwrap();
+        let mut tracer = Tracer::new(scene, &camera, film, 5).unwrap();
         (0..8).for_each(|_| tracer.pass(&|_| ()));
         assert!(tracer.vertices() >= 8 * 4 * 48);
         tracer.relative_error(exposure)

@@ -1,14 +1,14 @@
 //! Radiosities of patches by random walks: against closed forms, and their standard errors.
 
-use radiosity_geometry::{Divisions, Mesh, subdivide};
+use radiosity_geometry::Mesh;
 use radiosity_reference::{CellMean, cell_means};
-use radiosity_scene::{Scene, parse};
+use radiosity_scene::Scene;
 use radiosity_test_kit::closed_forms::parallel_rectangles;
-use radiosity_test_kit::{in_checkout, shipped_scene};
+use radiosity_test_kit::{cut_scene, in_checkout, scene_of, shipped_scene};
 use std::path::Path;
 
 pub(crate) fn cut(scene: &Scene, n: u32) -> Mesh {
-    subdivide(&scene.geometry, Divisions::uniform(n)).unwrap()
+    cut_scene(scene, n)
 }
 
 pub(crate) fn means(scene: &Scene, mesh: &Mesh, samples: u32, seed: u64) -> Vec<CellMean> {
@@ -47,7 +47,7 @@ fn walls_of_two_faces_let_nothing_through() {
         .replace("edge_b", "edge_a")
         .replace("edge =", "edge_b =");
     let both = format!("{text}\n[[surfaces]]{reversed}");
-    let scene = parse(Path::new("both.toml"), &both).unwrap();
+    let scene = scene_of(Path::new("both.toml"), &both);
     let mesh = cut(&scene, 1);
     let cells = means(&scene, &mesh, 20_000, 2);
     let (inside, outside) = cells.split_at(6);
@@ -75,7 +75,7 @@ fn one_emitter_and_one_receiver_give_the_form_factor() {
         material = "lamp"
         quad = [[0, 0, 1], [0, 1, 1], [1, 1, 1], [1, 0, 1]]
     "#;
-    let scene = parse(Path::new("pair.toml"), text).unwrap();
+    let scene = scene_of(Path::new("pair.toml"), text);
     let mesh = cut(&scene, 1);
     let cells = means(&scene, &mesh, 400_000, 3);
     let expected = 0.5 * parallel_rectangles([[0.0, 1.0]; 2], [[0.0, 1.0]; 2], 1.0);

@@ -5,7 +5,7 @@ use crate::light::{Light, one_sample};
 use crate::meshes::{cut_each, floor, quad};
 use proptest::prelude::*;
 use radiosity_geometry::{Camera, DVec3, FaceId, Mesh, Occluders, Polygon, Shape};
-use radiosity_renderer::{Renderer, Shading, ShadingParams};
+use radiosity_renderer::{ImageParams, Renderer, Shading};
 use std::f64::consts::PI;
 
 const EXITANCE: f32 = 3.0;
@@ -49,10 +49,10 @@ fn shown(mesh: &Mesh, at: DVec3, from: DVec3) -> f64 {
     let renderer = Renderer::new(
         mesh,
         &light.fields(),
-        &ShadingParams::default(),
+        &ImageParams::default(),
         &[Shading::Exact],
     );
-    let image = &renderer.render(&camera, &one_sample(1), &|_| ())[0];
+    let image = &renderer.render(&camera, &one_sample(1))[0];
     let [red, green, blue] = image.pixels[0].map(|radiance| f64::from(radiance) * PI);
     assert!((green - 0.5 * red).abs() < 1e-6 && blue == 0.0);
     red

@@ -5,7 +5,7 @@ use crate::light::{Light, one_sample};
 use crate::meshes::{cut, floor, quad};
 use crate::threads::with_threads;
 use radiosity_geometry::{Camera, DVec3, FaceId, Mesh, Shape};
-use radiosity_renderer::{ImageParams, Renderer, Shading, ShadingParams};
+use radiosity_renderer::{ImageParams, Renderer, Shading};
 use std::f32::consts::PI;
 
 /// A unit cube whose faces look inwards.
@@ -29,12 +29,12 @@ fn cube() -> Vec<Shape> {
 
 /// The radiance that a camera sees in its middle.
 fn seen(mesh: &Mesh, light: &Light, camera: &Camera, directions: u32) -> [f32; 3] {
-    let shading = ShadingParams {
+    let shading = ImageParams {
         directions,
-        ..ShadingParams::default()
+        ..ImageParams::default()
     };
     let renderer = Renderer::new(mesh, &light.fields(), &shading, &[Shading::Gathered]);
-    renderer.render(camera, &one_sample(1), &|_| ())[0].pixels[0]
+    renderer.render(camera, &one_sample(1))[0].pixels[0]
 }
 
 fn camera(position: [f64; 3], direction: [f64; 3]) -> Camera {
@@ -151,13 +151,13 @@ fn thread_counts_leave_no_trace() {
         height: 20,
         ..ImageParams::default()
     };
-    let shading = ShadingParams::default();
+    let shading = ImageParams::default();
     let position = DVec3::new(0.3, 0.4, 0.5);
     let direction = DVec3::new(0.5, 0.4, -0.3);
     let wide = Camera::new(position, direction, DVec3::Z, 90.0, 0.0).unwrap();
     let render = || {
         let renderer = Renderer::new(&mesh, &light.fields(), &shading, &[Shading::Gathered]);
-        renderer.render(&wide, &params, &|_| ())
+        renderer.render(&wide, &params)
     };
     let one = with_threads(1, render);
     assert!(one == with_threads(3, render));

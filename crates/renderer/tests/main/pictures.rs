@@ -5,7 +5,7 @@ use crate::meshes::cut;
 use crate::square::{square, two_triangles, view};
 use crate::threads::with_threads;
 use radiosity_geometry::{Camera, DVec3, Shape};
-use radiosity_renderer::{ImageParams, Renderer, Shading, ShadingParams};
+use radiosity_renderer::{ImageParams, Renderer, Shading};
 use std::f32::consts::PI;
 
 #[test]
@@ -43,7 +43,7 @@ fn whatever_lies_before_the_near_distance_is_not_seen() {
     let lid = [a, b, c, d].map(|p| p + 2.0 * DVec3::Z);
     let mesh = cut(vec![Shape::Quad([a, b, c, d]), Shape::Quad(lid)], 1);
     let light = Light::of_radiosity(&[[PI; 3], [5.0 * PI; 3]]);
-    let shading = ShadingParams::default();
+    let shading = ImageParams::default();
     let renderer = Renderer::new(&mesh, &light.fields(), &shading, &[Shading::Smooth]);
     let look = |near| {
         let from = 10.0 * DVec3::Z;
@@ -53,7 +53,7 @@ fn whatever_lies_before_the_near_distance_is_not_seen() {
             height: 1,
             ..ImageParams::default()
         };
-        renderer.render(&camera, &params, &|_| ())[0].pixels[0][0]
+        renderer.render(&camera, &params)[0].pixels[0][0]
     };
     assert!((look(0.0) - 5.0).abs() < 1e-5);
     assert!((look(9.0) - 1.0).abs() < 1e-5);

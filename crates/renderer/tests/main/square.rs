@@ -3,7 +3,7 @@
 use crate::light::one_sample;
 use radiosity_geometry::{Camera, DVec3, Mesh, Shape};
 use radiosity_image::Image;
-use radiosity_renderer::{Fields, Renderer, Shading, ShadingParams};
+use radiosity_renderer::{Fields, ImageParams, Renderer, Shading};
 
 /// The corners of a unit square around the origin in the plane z = 0, front towards +z.
 pub(crate) fn square() -> [DVec3; 4] {
@@ -29,7 +29,7 @@ pub(crate) fn view(
     let from = center + distance * DVec3::Z;
     let camera = Camera::new(from, DVec3::NEG_Z, DVec3::Y, fov, 0.0).unwrap();
     let shadings = [Shading::Constant, Shading::Smooth];
-    let renderer = Renderer::new(mesh, fields, &ShadingParams::default(), &shadings);
-    let pictures = renderer.render(&camera, &one_sample(pixels), &|_| ());
+    let renderer = Renderer::new(mesh, fields, &ImageParams::default(), &shadings);
+    let pictures = renderer.render(&camera, &one_sample(pixels));
     pictures.try_into().expect("a picture for each shading")
 }

@@ -1,7 +1,7 @@
 //! Errors as parts, for programs that show them in their own way.
 
-use super::GOOD;
-use crate::{Help, SceneError, load, parse};
+use super::{GOOD, parse};
+use crate::{Help, SceneError};
 use std::path::Path;
 
 fn error_of(from: &str, to: &str) -> SceneError {
@@ -40,7 +40,7 @@ fn columns_are_those_of_the_report() {
 
 #[test]
 fn whole_files_are_wrong_at_no_place() {
-    let error = load(Path::new("missing.toml")).unwrap_err();
+    let error = crate::read(Path::new("missing.toml")).unwrap_err();
     assert_eq!((error.place(), error.label()), (None, ""));
     let said = error.to_string();
     let end = "\n  --> missing.toml\n   = help: give the path of a scene file (.toml, .vs3)";

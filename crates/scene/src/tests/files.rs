@@ -2,8 +2,9 @@
 
 #![cfg(unix)]
 
+use super::load;
 use super::meshes::MeshScene;
-use crate::{Help, MeshFiles, load, load_with};
+use crate::{Help, MeshFiles};
 use std::os::unix::fs::symlink;
 use std::path::Path;
 use std::process::Command;
@@ -22,7 +23,9 @@ fn pipes_devices_and_folders_are_not_opened() {
     make_pipe(&place.path("pipe.obj"));
     symlink("/dev/zero", place.path("zero.vs3")).unwrap();
     for scene in ["pipe.toml", "zero.vs3"] {
-        let error = load(&place.path(scene)).unwrap_err().to_string();
+        let error = load(&place.path(scene), MeshFiles::InFolder)
+            .unwrap_err()
+            .to_string();
         assert!(
             error.contains("cannot read the scene: it is a pipe or a device"),
             "{error}"
@@ -58,10 +61,10 @@ fn meshes_are_in_the_folder_of_the_scene() {
     let elsewhere = other.path("model.obj").display().to_string();
     for outside in ["c.obj", "others/model.obj", &elsewhere] {
         std::fs::write(place.path("scene.toml"), MeshScene::text(outside, " }")).unwrap();
-        let error = load(&place.path("scene.toml")).unwrap_err();
+        let error = load(&place.path("scene.toml"), MeshFiles::InFolder).unwrap_err();
         assert_eq!(error.title(), "the mesh is outside of the scene's folder");
         assert_eq!(error.help(), Some(&Help::MeshFolder));
-        let scene = load_with(&place.path("scene.toml"), MeshFiles::Anywhere);
+        let scene = load(&place.path("scene.toml"), MeshFiles::Anywhere);
         assert_eq!(scene.unwrap().surfaces.len(), 1);
     }
 }
@@ -71,7 +74,8 @@ fn scenes_in_other_encodings_and_formats_are_told_apart() {
     let place = MeshScene::new(PLATE);
     let error = |bytes: &[u8]| {
         std::fs::write(place.path("scene.toml"), bytes).unwrap();
-        load(&place.path("scene.toml")).unwrap_err().to_string()
+        let error = load(&place.path("scene.toml"), MeshFiles::InFolder);
+        error.unwrap_err().to_string()
     };
     let in_utf_16 = error(b"\xff\xfe[\0m\0");
     assert!(
@@ -84,5 +88,5 @@ fn scenes_in_other_encodings_and_formats_are_told_apart() {
     assert!(error(b"glTF\x02\0\0\0").contains("a binary glTF file"));
     let marked = format!("\u{feff}{}", MeshScene::text("model.obj", " }"));
     std::fs::write(place.path("scene.toml"), marked).unwrap();
-    assert!(load(&place.path("scene.toml")).is_ok());
+    assert!(load(&place.path("scene.toml"), MeshFiles::InFolder).is_ok());
 }

@@ -1,6 +1,7 @@
 //! Scenes of meshes.
 
-use crate::{Scene, parse};
+use super::{Parsed, parse};
+use crate::Scene;
 use proptest::prelude::*;
 use radiosity_geometry::{DVec3, Shape, SurfaceId};
 use std::fmt::Write;
@@ -27,7 +28,7 @@ impl MeshScene {
         )
     }
 
-    pub(super) fn parse(&self, file: &str, extra: &str) -> Result<Scene, String> {
+    pub(super) fn parse(&self, file: &str, extra: &str) -> Result<Parsed, String> {
         let folder = self.0.path().display().to_string();
         parse(&self.path("scene.toml"), &MeshScene::text(file, extra))
             .map_err(|error| error.to_string().replace(&folder, "FOLDER"))
@@ -88,7 +89,7 @@ fn meshes_take_materials_by_group_or_material_name() {
 fn mesh_quads_stay_and_larger_polygons_become_triangles() {
     let faces = |obj: &str| {
         let scene = MeshScene::new(obj).parse("model.obj", " }").unwrap();
-        let Shape::Mesh(mesh) = &scene.geometry[0].shape else {
+        let Shape::Mesh(mesh) = &scene.surfaces[0].shape else {
             panic!()
         };
         mesh.faces.iter().map(Vec::len).collect::<Vec<_>>()
@@ -98,7 +99,7 @@ fn mesh_quads_stay_and_larger_polygons_become_triangles() {
     let l = "v 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nf 1 2 3 4 5 6\n";
     assert_eq!(faces(l), [3, 3, 3, 3]);
     let scene = MeshScene::new(l).parse("model.obj", " }").unwrap();
-    let polygons = scene.geometry[0].shape.polygons().unwrap();
+    let polygons = scene.surfaces[0].shape.polygons().unwrap();
     let area: DVec3 = polygons.iter().map(|(_, p)| p.area_vector()).sum();
     assert_eq!(area, DVec3::new(0.0, 0.0, 3.0));
     assert!(polygons.iter().all(|(_, p)| p.area_vector().z > 0.0));
@@ -110,7 +111,7 @@ fn meshes_are_scaled_and_then_moved() {
     let scene = scene
         .parse("model.obj", ", scale = 2, translate = [0, 0, 7] }")
         .unwrap();
-    let Shape::Mesh(mesh) = &scene.geometry[0].shape else {
+    let Shape::Mesh(mesh) = &scene.surfaces[0].shape else {
         panic!()
     };
     assert!(mesh.positions.contains(&DVec3::new(2.0, 2.0, 7.0)));
@@ -161,7 +162,7 @@ fn indented_lines_keep_their_names() {
 
 #[test]
 fn a_mesh_is_not_a_scene() {
-    let error = crate::load(Path::new("model.obj")).unwrap_err().to_string();
+    let error = crate::read(Path::new("model.obj")).unwrap_err().to_string();
     assert!(
         error.contains("this is a mesh") && error.contains("mesh = {"),
         "{error}"

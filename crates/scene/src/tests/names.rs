@@ -1,8 +1,7 @@
 //! Names of a size that nobody prints.
 
 use super::meshes::MeshScene;
-use super::{GOOD, parse_text};
-use crate::parse;
+use super::{GOOD, Parsed, parse, parse_text};
 use std::path::Path;
 
 /// So much of an error or note can be printed.
@@ -13,7 +12,7 @@ fn long() -> String {
 }
 
 #[track_caller]
-fn assert_is_refused(error: Result<crate::Scene, String>, expected: &str) {
+fn assert_is_refused(error: Result<Parsed, String>, expected: &str) {
     let error = error.unwrap_err();
     assert!(error.len() < PRINTABLE, "{} bytes", error.len());
     assert!(error.contains(expected), "{error}");
@@ -42,14 +41,19 @@ fn names_of_scenes_have_limits() {
             "there is no light `nämnäm",
         ),
         (
-            "[camera]",
-            "[image]\n\"LONG\" = 1\n[camera]",
+            "vertical_fov",
+            "\"LONG\" = 1\nvertical_fov",
             "unknown field `nämnäm",
         ),
         (
             "[camera]",
-            "[image]\ntone = \"LONG\"\n[camera]",
-            "unknown variant `nämnäm",
+            "[\"LONG\"]\n[camera]",
+            "there is no table `nämnäm",
+        ),
+        (
+            "name = \"wing\"",
+            "\"LONG\" = 1\nname = \"wing\"",
+            "there is no key `nämnäm",
         ),
         (
             "look_at = [0, 0, 0]",

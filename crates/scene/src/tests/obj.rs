@@ -2,16 +2,17 @@
 //!
 //! Long because: one test for each thing that a file may say.
 
+use super::Parsed;
 use super::meshes::MeshScene;
 use crate::Scene;
 use radiosity_geometry::{DVec3, PolygonMesh, Shape};
 
-fn read(obj: impl AsRef<[u8]>) -> Result<Scene, String> {
+fn read(obj: impl AsRef<[u8]>) -> Result<Parsed, String> {
     MeshScene::new(obj).parse("model.obj", " }")
 }
 
 fn mesh(scene: &Scene) -> &PolygonMesh {
-    match &scene.geometry[0].shape {
+    match &scene.surfaces[0].shape {
         Shape::Mesh(mesh) => mesh,
         _ => panic!("no mesh"),
     }
@@ -24,7 +25,7 @@ fn corner_counts(scene: &Scene) -> Vec<usize> {
 
 /// The sum of the areas of faces; as vectors, so that those that face back count against it.
 fn area(scene: &Scene) -> DVec3 {
-    let polygons = scene.geometry[0].shape.polygons().unwrap();
+    let polygons = scene.surfaces[0].shape.polygons().unwrap();
     polygons.iter().map(|(_, p)| p.area_vector()).sum()
 }
 
@@ -32,7 +33,7 @@ fn area(scene: &Scene) -> DVec3 {
 const PLATE: &str = "v 0 0 0\nv 3 0 0\nv 3 2 0\nv 0 2 0\nf 1 2 3 4\n";
 
 #[track_caller]
-fn assert_is_plate(obj: impl AsRef<[u8]>) -> Scene {
+fn assert_is_plate(obj: impl AsRef<[u8]>) -> Parsed {
     let scene = read(obj).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(corner_counts(&scene), [4]);
     assert_eq!(area(&scene), DVec3::new(0.0, 0.0, 6.0));

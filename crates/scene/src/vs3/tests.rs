@@ -1,8 +1,9 @@
 //! What View3D's files mean, and what is said of wrong ones.
 
 use crate::Scene;
+use crate::tests::Parsed;
 use proptest::prelude::*;
-use radiosity_geometry::{Divisions, Mesh, subdivide};
+use radiosity_geometry::{Discretization, Divisions, Mesh, subdivide};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -30,12 +31,19 @@ O 4 5 6 7 8 0 0 0.9 screen
 S 5 this is not read
 ";
 
-fn parse(text: &str) -> Result<Scene, String> {
-    crate::parse(Path::new("scenes/room.vs3"), text).map_err(|error| error.to_string())
+fn parse(text: &str) -> Result<Parsed, String> {
+    crate::tests::parse(Path::new("scenes/room.vs3"), text).map_err(|error| error.to_string())
 }
 
 fn mesh(scene: &Scene) -> Mesh {
-    subdivide(&scene.geometry, scene.divisions).unwrap()
+    let mut params = Discretization::uniform(1);
+    let obstructions = scene
+        .surfaces
+        .iter()
+        .filter(|surface| surface.is_obstruction);
+    let uncut = obstructions.map(|surface| (surface.name.clone(), Divisions::Uncut));
+    params.surfaces.extend(uncut);
+    subdivide(&params.of_shapes(scene.shapes()), params.default).unwrap()
 }
 
 #[test]
@@ -59,7 +67,7 @@ fn a_file_means_what_it_says() {
     let reflectance =
         |surface: usize| scene.materials[scene.surfaces[surface].materials[0]].reflectance[0];
     assert!((reflectance(0) - 0.1).abs() < 1e-12 && reflectance(1) == 0.5);
-    assert_eq!(scene.geometry[3].divisions, Some(Divisions::Uncut));
+    assert!(scene.surfaces[3].is_obstruction);
 }
 
 #[test]
@@ -181,7 +189,8 @@ proptest! {
         let end = (start + cut).min(text.len());
         text.replace_range(start..end, &insert);
         if let Ok(scene) = parse(&text) {
-            let _ = subdivide(&scene.geometry, scene.divisions);
+            let params = Discretization::uniform(1);
+            let _ = subdivide(&params.of_shapes(scene.shapes()), params.default);
         }
     }
 }

@@ -16,9 +16,10 @@ fn textbook_sweep(case: &Case, light: usize, factor: f64, x: &mut [Rgb]) {
 /// The largest difference after some sweeps, relative to the largest radiosity.
 fn distance(case: &Case, factor: f64, sweeps: u32) -> f64 {
     let params = Params {
-        method: Method::GaussSeidel(Relaxation::Factor(factor)),
-        tolerance: 0.0,
-        max_passes: sweeps,
+        method: Method::GaussSeidel,
+        relaxation: Relaxation::Factor(factor),
+        residual: 0.0,
+        max_sweeps: sweeps,
     };
     let solution = case.solve(&params);
     let mut worst: f64 = 0.0;
@@ -79,7 +80,7 @@ proptest! {
     #[test]
     fn residuals_are_true(case in random_case(), passes in 1u32..6) {
         for method in METHODS {
-            let params = Params { method, tolerance: 0.0, max_passes: passes };
+            let params = Params { residual: 0.0, max_sweeps: passes, ..with(method) };
             let solution = case.solve(&params);
             let mut direct: f64 = 0.0;
             for (found, emission) in solution.lights.iter().zip(&case.lights) {

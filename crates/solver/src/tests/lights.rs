@@ -55,8 +55,8 @@ fn every_light_converges() {
         ..two_lights()
     };
     let alone = alone.solve(&Params {
-        tolerance: 0.0,
-        max_passes: solution.report.residuals.len() as u32,
+        residual: 0.0,
+        max_sweeps: solution.report.residuals.len() as u32,
         ..with(GAUSS_SEIDEL)
     });
     assert_eq!(solution.lights[1], alone.lights[0]);

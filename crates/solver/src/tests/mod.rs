@@ -22,17 +22,21 @@ struct Case {
     backs: Vec<f64>,
 }
 
-const GAUSS_SEIDEL: Method = Method::GaussSeidel(Relaxation::Factor(1.0));
-const METHODS: [Method; 4] = [
+/// A method, and how much Gauss-Seidel relaxes.
+type Way = (Method, Relaxation);
+
+const GAUSS_SEIDEL: Way = (Method::GaussSeidel, Relaxation::Factor(1.0));
+const METHODS: [Way; 4] = [
     GAUSS_SEIDEL,
-    Method::GaussSeidel(Relaxation::Factor(1.2)),
-    Method::GaussSeidel(Relaxation::Automatic),
-    Method::ConjugateGradients,
+    (Method::GaussSeidel, Relaxation::Factor(1.2)),
+    (Method::GaussSeidel, Relaxation::Automatic),
+    (Method::ConjugateGradients, Relaxation::Automatic),
 ];
 
-fn with(method: Method) -> Params {
+fn with((method, relaxation): Way) -> Params {
     Params {
         method,
+        relaxation,
         ..Params::default()
     }
 }
@@ -84,16 +88,16 @@ impl Case {
         System {
             exchange: &self.exchange,
             areas: &self.areas,
-            visible: &self.visible,
+            visible: (&self.visible).into(),
             reflectance: &self.reflectance,
             lights: &self.lights,
-            backs: &self.backs,
-            background: &self.background,
+            backs: (&self.backs).into(),
+            background: (&self.background).into(),
         }
     }
 
     fn solve(&self, params: &Params) -> Solution {
-        solve(&self.system(), params, &mut |_| ()).unwrap()
+        solve(&self.system(), params).unwrap()
     }
 }
 

@@ -17,7 +17,7 @@ fn solve_lights(case: &Case, lights: &[Vec<Rgb>], params: &Params) -> Solution {
         lights,
         ..case.system()
     };
-    solve(&system, params, &mut |_| ()).unwrap()
+    solve(&system, params).unwrap()
 }
 
 /// Powers of two, which change no digit.
@@ -62,7 +62,7 @@ proptest! {
         }
     }
 
-    /// Factors that change digits move the solution by what rounding and the tolerance allow; the
+    /// Factors that change digits move the solution by what rounding and the residual allow; the
     /// latter's bound is that of `methods_agree`.
     #[test]
     fn every_channel_converges_at_any_scale(
@@ -131,7 +131,7 @@ fn channels_that_have_converged_rest() {
     let truth = exact(&case);
     for method in METHODS {
         let params = Params {
-            max_passes: 20_000,
+            max_sweeps: 20_000,
             ..with(method)
         };
         let solution = case.solve(&params);
@@ -145,14 +145,14 @@ fn channels_that_have_converged_rest() {
     }
 }
 
-/// No tolerance is out of the question: what cannot be reached is said.
+/// No residual is out of the question: what cannot be reached is said.
 #[test]
-fn unreachable_tolerances_end_at_single_precision() {
+fn unreachable_residuals_end_at_single_precision() {
     let mut case = Case::uniform_enclosure(40, [1.0, 0.0, 1e-25], [0.7, 0.5, 1e-30]);
     case.lights[0][3] = [0.0; 3];
     for method in METHODS {
         let params = Params {
-            tolerance: 1e-300,
+            residual: 1e-300,
             ..with(method)
         };
         let report = case.solve(&params).report;
@@ -168,7 +168,7 @@ fn radiosities_out_of_range_are_refused() {
         let mut case = Case::uniform_enclosure(5, [1.0, 1.0, emission], [rho; 3]);
         case.lights[0][0] = [0.0; 3];
         for method in METHODS {
-            let error = solve(&case.system(), &with(method), &mut |_| ()).unwrap_err();
+            let error = solve(&case.system(), &with(method)).unwrap_err();
             let is_known = matches!(error, SolveError::OutOfRange { .. });
             assert!(is_known, "{method:?}, {emission:e}: {error}");
         }

@@ -1,7 +1,8 @@
 //! What is said of surfaces that lie on others.
 
+use radiosity_form_factors::Mode;
 use radiosity_geometry::Mesh;
-use radiosity_scene::{Mode, Scene};
+use radiosity_scene::Scene;
 use std::collections::BTreeSet;
 
 /// So many pairs of surfaces are told one by one.
@@ -9,7 +10,7 @@ const MOST_TOLD: usize = 8;
 
 /// A line for each pair of surfaces of which one lies on the other: in its plane, facing the same
 /// way.
-pub fn notes(scene: &Scene, mesh: &Mesh) -> Vec<String> {
+pub fn notes(scene: &Scene, mesh: &Mesh, mode: Mode) -> Vec<String> {
     let surface = |face: usize| mesh.faces[face].surface.index();
     let covered = mesh.covers.covered().iter();
     let pairs = covered.flat_map(|covered| {
@@ -25,7 +26,7 @@ pub fn notes(scene: &Scene, mesh: &Mesh) -> Vec<String> {
         } else {
             format!("`{above}` lies on `{below}`, in one plane and facing the same way")
         };
-        match scene.form_factors.mode {
+        match mode {
             Mode::Accurate => format!("note: {place}; what is below exchanges no light"),
             Mode::Regular | Mode::MonteCarlo => format!(
                 "warning: {place}; both exchange light there, and rows sum to more than 1 (the \

@@ -1,0 +1,74 @@
+//! How form factors are estimated, on the command line.
+
+use super::choices::{MODES, choice};
+use super::scene_args::set;
+use super::terminal::tell;
+use clap::Args;
+use radiosity::form_factors::{Mode, Params};
+use std::path::PathBuf;
+
+/// How form factors are estimated, and where artifacts are kept.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Form factors")]
+pub struct EstimateArgs {
+    /// Estimator of the form factors
+    #[arg(long, value_parser = choice::<Mode>(&MODES))]
+    pub mode: Option<Mode>,
+    /// Points (or random strata) along each edge of a patch, 1 to 64
+    #[arg(long, value_name = "N")]
+    pub points: Option<u32>,
+    /// Pairs of points per pair of patches, for monte-carlo [default: points^2]
+    #[arg(long, value_name = "N")]
+    pub pairs: Option<u32>,
+    /// Aimed error of accurate: the sum over a row of |error of F_ij|, 1e-6 to 0.1
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+    /// Seed of the random points of monte-carlo
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// Scale the factors so that rows sum to 1 where patches see fronts alone; reciprocity is kept
+    #[arg(long)]
+    pub closure: bool,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "a comment here would replace the help text")]
+    pub cache: CacheArgs,
+    /// Threads to use [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub threads: Option<u32>,
+    /// Print one JSON object on standard output, and everything else on standard error
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl EstimateArgs {
+    pub(super) fn apply(&self, params: &mut Params) {
+        set(&mut params.mode, self.mode);
+        set(&mut params.points, self.points);
+        set(&mut params.seed, self.seed);
+        set(&mut params.tolerance, self.tolerance);
+        params.pairs = self.pairs.or(params.pairs);
+        params.closure |= self.closure;
+        if self.tolerance.is_some() && params.mode != Mode::Accurate {
+            tell("warning: --tolerance is for --mode accurate, and changes nothing");
+        }
+        if self.points.is_some() && params.mode == Mode::Accurate {
+            tell("warning: --points is not for --mode accurate, and changes nothing");
+        }
+        if params.mode != Mode::MonteCarlo && (self.pairs.is_some() || self.seed.is_some()) {
+            tell("warning: --pairs and --seed are for --mode monte-carlo, and change nothing");
+        }
+    }
+}
+
+/// Where artifacts are kept.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Run")]
+pub struct CacheArgs {
+    /// Folder of cached form factors and solutions [default: cache in a checkout, else the
+    /// platform's cache folder]
+    #[arg(long = "cache", value_name = "DIR")]
+    pub folder: Option<PathBuf>,
+    /// Compute everything, read and write no cached file
+    #[arg(long, conflicts_with = "folder")]
+    pub no_cache: bool,
+}

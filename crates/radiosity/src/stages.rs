@@ -1,0 +1,34 @@
+//! The chain of stages: each takes the result of the one before, and its parameters.
+//!
+//! ```no_run
+//! use radiosity::renderer::Shading;
+//! use radiosity::{Context, Project, estimate, render, save_png, solve, subdivide};
+//!
+//! let Project { scene, params, .. } = Project::open("scenes/cornell.toml".as_ref())?;
+//! let patches = subdivide(&scene, &params.discretization, Context::default())?;
+//! let factors = estimate(&patches, &params.form_factors)?;
+//! let solved = solve(&factors, &params.solver)?;
+//! let light = solved.light()?;
+//! let camera = scene.first_camera().expect("the scene has a camera");
+//! let pictures = render(&patches, &light, &camera, &params.image, &[Shading::Smooth])?;
+//! save_png("cornell.png".as_ref(), &pictures[0], &params.image)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Form factors and solutions are taken from the cache of the [`Context`], if it has one, each
+//! under the digest of what its stage reads. Form factors are made when something asks for them: a
+//! cached solution does not.
+
+mod dimming;
+mod factors;
+mod light;
+mod patches;
+mod pictures;
+mod solution;
+
+pub use dimming::Dimming;
+pub use factors::{Factors, FormFactorsMade, estimate};
+pub use light::PatchLight;
+pub use patches::{Patches, subdivide};
+pub use pictures::{Quantity, Shown, render, render_by, save_png, show};
+pub use solution::{Solved, solve, solve_anew};

@@ -1,0 +1,228 @@
+//! Stage 2: form factors, as they are estimated or closed.
+
+use super::patches::Patches;
+use crate::artifact::{How, Origin, Recipe, Sources, obtain};
+use crate::closed::closed;
+use crate::covers;
+use crate::error::Error;
+use crate::facts::{self, CLOSURE, FORM_FACTORS, FactorFacts};
+use crate::job::Job;
+use crate::remedy::Remedy;
+use crate::row_columns::is_finite;
+use crate::rows::RowSummary;
+use radiosity_cache::{Id, Key, Miss, Store};
+use radiosity_form_factors::{self as form_factors, FormFactors, Mode, Params};
+use radiosity_matrix::SymmetricMatrix;
+use radiosity_params::Parameters;
+use radiosity_solver::SolveError;
+use std::sync::OnceLock;
+use std::time::Instant;
+
+/// The form factors of patches, made or read when they are first asked for.
+pub struct Factors<'a> {
+    pub(super) patches: &'a Patches<'a>,
+    pub(super) params: Params,
+    /// The identity of the form factors as they are estimated.
+    estimate: Key,
+    /// And of those that are used.
+    pub(super) key: Key,
+    made: OnceLock<FormFactorsMade>,
+}
+
+/// Form factors and where they came from.
+pub struct FormFactorsMade {
+    /// The artifact.
+    pub form_factors: FormFactors,
+    /// Statistics.
+    pub rows: RowSummary,
+    /// Cached or computed.
+    pub origin: Origin,
+}
+
+/// The form factors of patches. They are made when they are first asked for.
+pub fn estimate<'a>(patches: &'a Patches<'a>, params: &Params) -> Result<Factors<'a>, Error> {
+    params.check()?;
+    for note in covers::notes(patches.scene, &patches.mesh, params.mode) {
+        patches.context.observer.note(&note);
+    }
+    let inputs = (facts::FACTORS_VERSION, &patches.mesh, params.estimator());
+    let estimate = Key::of(FORM_FACTORS, form_factors::VERSION, &inputs);
+    Ok(Factors {
+        key: if params.closure {
+            Key::of(CLOSURE, form_factors::VERSION, &estimate.bytes())
+        } else {
+            estimate
+        },
+        estimate,
+        patches,
+        params: *params,
+        made: OnceLock::new(),
+    })
+}
+
+impl<'a> Factors<'a> {
+    /// The form factors, from the cache where possible.
+    pub fn made(&self) -> Result<&FormFactorsMade, Error> {
+        self.made_from(Sources::Cached)
+    }
+
+    /// The form factors, estimated even if they are cached.
+    pub fn made_anew(&self) -> Result<&FormFactorsMade, Error> {
+        self.made_from(Sources::Computed)
+    }
+
+    /// Whether somebody has asked for them.
+    pub fn are_made(&self) -> bool {
+        self.made.get().is_some()
+    }
+
+    /// The patches.
+    pub fn patches(&self) -> &'a Patches<'a> {
+        self.patches
+    }
+
+    /// Why row sums may exceed 1, unless the estimator tells its errors.
+    pub fn known_weakness(&self) -> Option<&'static str> {
+        match self.params.mode {
+            Mode::Regular => Some("the regular rule overestimates patches that touch"),
+            Mode::MonteCarlo => {
+                Some("the variance is unbounded where patches touch; more pairs of points help")
+            }
+            Mode::Accurate => None,
+        }
+    }
+
+    fn made_from(&self, sources: Sources) -> Result<&FormFactorsMade, Error> {
+        if let Some(made) = self.made.get() {
+            return Ok(made);
+        }
+        let made = if self.params.closure {
+            let id = self.id();
+            self.obtained(&id, sources, |store| {
+                self.job().needs().with_closure(true).check_memory()?;
+                let raw = self.estimated(sources)?.form_factors;
+                closed(&self.job(), &raw, store, &id)
+            })
+        } else {
+            self.estimated(sources)
+        }?;
+        Ok(self.made.get_or_init(|| made))
+    }
+
+    /// The form factors as they are estimated.
+    fn estimated(&self, sources: Sources) -> Result<FormFactorsMade, Error> {
+        let id = self.patches.id(FORM_FACTORS, self.estimate);
+        self.obtained(&id, sources, |store| match store {
+            Some(store) => self.job().run_journaled(store, &id, sources),
+            None => Ok((self.job().run()?, false)),
+        })
+    }
+
+    /// Form factors from the cache, or made anew.
+    fn obtained(
+        &self,
+        id: &Id<'_>,
+        sources: Sources,
+        make: impl FnOnce(Option<&Store>) -> Result<(FormFactors, bool), Error>,
+    ) -> Result<FormFactorsMade, Error> {
+        let start = Instant::now();
+        let recipe = Recipe {
+            read: |store: &Store| {
+                let (facts, values) = store.read::<FactorFacts>(id)?.into_values()?;
+                self.stored_form_factors(facts, values).ok_or(Miss::Header)
+            },
+            make,
+        };
+        let (form_factors, mut origin) = obtain(self.patches.context, id, sources, recipe)?;
+        self.check_finite(&form_factors)?;
+        origin.bytes = 4 * form_factors.exchange.values().len() as u64;
+        origin.seconds = start.elapsed().as_secs_f64();
+        let surface = |patch: usize| self.patches.mesh.patches[patch].surface.index();
+        let rows = RowSummary::of(&form_factors, surface);
+        Ok(FormFactorsMade {
+            form_factors,
+            rows,
+            origin,
+        })
+    }
+
+    fn job(&self) -> Job<'_> {
+        Job {
+            mesh: &self.patches.mesh,
+            estimator: self.params.estimator(),
+            closure: self.params.closure,
+            observer: self.patches.context.observer,
+        }
+    }
+
+    /// Of the form factors that are used.
+    fn id(&self) -> Id<'a> {
+        let stage = if self.params.closure {
+            CLOSURE
+        } else {
+            FORM_FACTORS
+        };
+        self.patches.id(stage, self.key)
+    }
+
+    fn stored_form_factors(
+        &self,
+        facts: FactorFacts,
+        values: impl AsRef<[f32]> + Send + Sync + 'static,
+    ) -> Option<FormFactors> {
+        let patches = self.patches.mesh.patches.len();
+        let is_sound = facts.rows.len() == patches && facts.are_sound(values.as_ref().len());
+        let exchange = SymmetricMatrix::new(patches, values).ok()?;
+        is_sound.then_some(FormFactors {
+            total_area: facts.areas.iter().sum(),
+            areas: facts.areas,
+            exchange,
+            rows: facts.rows,
+            classes: facts.classes,
+            closure: facts.closure,
+        })
+    }
+
+    /// What to say of form factors that nobody has asked for.
+    pub(super) fn untouched(&self) -> Origin {
+        let id = self.id();
+        let is_there = |store: &&Store| store.read::<FactorFacts>(&id).is_ok();
+        let store = self.patches.context.cache.filter(is_there);
+        let file = store.map(|store| store.path(&id));
+        if let Some(store) = store {
+            store.tidy(&id);
+        }
+        Origin {
+            how: if file.is_some() {
+                How::Cached
+            } else {
+                How::NotNeeded
+            },
+            file,
+            bytes: 4 * radiosity_matrix::packed_len(self.patches.mesh.patches.len()) as u64,
+            seconds: 0.0,
+        }
+    }
+
+    /// Refuses form factors that are no numbers. A file of such rows is not taken from the cache
+    /// either.
+    fn check_finite(&self, FormFactors { rows, areas, .. }: &FormFactors) -> Result<(), Error> {
+        let mut rows = rows.iter().zip(areas);
+        let bad = rows.position(|(row, area)| !is_finite(row, *area));
+        bad.map_or(Ok(()), |patch| {
+            Err(Error::Unsolvable {
+                problem: format!(
+                    "the form factors of `{}` are no numbers",
+                    self.patches.surface_name(patch)
+                ),
+                remedy: Remedy::words("use numbers of ordinary size in the scene"),
+            })
+        })
+    }
+
+    /// Names the surfaces that an error of the solver is about.
+    pub(super) fn of_solver(&self, error: &SolveError) -> Error {
+        let name = |patch| self.patches.surface_name(patch).to_owned();
+        Error::of_solver(error, self.params.mode, name)
+    }
+}
