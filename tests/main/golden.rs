@@ -109,6 +109,7 @@ fn furnace() {
 }
 
 #[test]
+#[ignore = "slow: a minute"]
 fn knot() {
     check("knot", 4, 1);
 }

@@ -33,6 +33,7 @@ impl ChiSquare {
 
 /// Mean radiosities of cells of all sizes agree within both errors, and so does the total power.
 #[test]
+#[ignore = "slow: a quarter of a minute"]
 fn radiosities_agree() {
     for (n, samples) in [(4, 18_000), (12, 2000), (24, 1000)] {
         let (chi_square, power, power_error) = compare_with_table(n, samples);
@@ -92,6 +93,7 @@ fn compare_with_table(n: u32, samples: u32) -> (ChiSquare, f64, f64) {
 
 /// Pictures with either pixel filter agree, as a whole and block by block, within both errors.
 #[test]
+#[ignore = "slow: half a minute"]
 fn pictures_agree() {
     for (filter, passes) in [(PixelFilter::Box, 12), (PixelFilter::Tents, 6)] {
         let mut project = shipped("cornell");

@@ -112,6 +112,7 @@ fn killed_runs_go_on_where_they_were() {
 
 /// Whoever renames a scene does not lose what was made of it.
 #[test]
+#[ignore = "slow: ten seconds"]
 fn killed_runs_go_on_under_another_name() {
     let _alone = ALONE.lock();
     let place = Place::new();
@@ -142,6 +143,7 @@ fn undisturbed_export() -> &'static Vec<u8> {
 
 /// A file that may not grow is refused like one on a full disk.
 #[test]
+#[ignore = "slow: twenty seconds"]
 #[cfg(unix)]
 fn a_full_disk_costs_the_rest_of_the_artifact_and_no_result() {
     let _alone = ALONE.lock();
@@ -179,6 +181,7 @@ fn a_full_disk_costs_the_rest_of_the_artifact_and_no_result() {
 }
 
 #[test]
+#[ignore = "slow: ten seconds"]
 fn a_cache_that_vanishes_costs_the_artifact_and_no_result() {
     let _alone = ALONE.lock();
     let place = Place::new();
@@ -203,6 +206,7 @@ fn a_cache_that_vanishes_costs_the_artifact_and_no_result() {
 }
 
 #[test]
+#[ignore = "slow: ten seconds"]
 fn what_is_not_gone_on_with_is_named() {
     let _alone = ALONE.lock();
     let place = Place::new();
