@@ -137,7 +137,7 @@ pub enum FormatArg {
     Exr,
 }
 
-/// [`Quantity`](radiosity::Quantity) on the command line, and how it is shown.
+/// [`Quantity`](radiosity::stages::Quantity) on the command line, and how it is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum ShowArg {
     /// All light

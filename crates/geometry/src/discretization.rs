@@ -99,7 +99,7 @@ impl Discretization {
         }
     }
 
-    /// What [`subdivide`](crate::subdivide) takes beside the default: shapes with their own rules,
+    /// What [`subdivide`](crate::subdivide()) takes beside the default: shapes with their own rules,
     /// found by the names of their surfaces.
     pub fn of_shapes<'a>(
         &self,

@@ -15,9 +15,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Form factors and solutions are taken from the cache of the [`Context`], if it has one, each
-//! under the digest of what its stage reads. Form factors are made when something asks for them: a
-//! cached solution does not.
+//! Form factors and solutions are taken from the cache of the [`Context`](crate::Context), if it has
+//! one, each under the digest of what its stage reads. Form factors are made when something asks
+//! for them: a cached solution does not.
 
 mod dimming;
 mod factors;
