@@ -59,11 +59,15 @@ impl<'t> Tables<'t> {
         (document, others)
     }
 
-    /// Has a key of a table that was renamed read by its new name; says whether it was there.
+    /// Has a key of a table that was renamed read by its new name; says whether it was there. Where
+    /// both names are, the old one stays, and is refused like any other that is not known.
     pub fn rename(&mut self, table: &str, old: &str, new: &'static str) -> bool {
         let Some(DeValue::Table(table)) = self.tables.get_mut(table).map(Spanned::get_mut) else {
             return false;
         };
+        if table.contains_key(new) {
+            return false;
+        }
         let Some((key, value)) = table.remove_entry(old) else {
             return false;
         };

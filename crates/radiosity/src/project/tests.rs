@@ -123,6 +123,7 @@ fn mistakes_are_explained() {
         ("relaxation = 1.5", "relaxation = \"fast\""),
         ("relaxation = 1.5", "residual = 0"),
         ("relaxation = 1.5", "tolerance = 0"),
+        ("relaxation = 1.5", "tolerance = 1e-4\nresidual = 1e-4"),
         ("relaxation = 1.5", "max_sweeps = 0"),
         ("\"conjugate-gradients\"", "\"jacobi\""),
         ("divisions = [3, 4]", "divisions = [3, 4, 5]"),
