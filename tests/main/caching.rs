@@ -2,140 +2,20 @@
 //!
 //! Long because: one test for each reason to compute anew.
 
+mod bench;
+
+use bench::{Bench, Outcome, changed_both, changed_solution, none};
 use radiosity::cache::{Limits, Store};
 use radiosity::form_factors::Mode;
 use radiosity::geometry::{Camera, DVec3, Divisions};
-use radiosity::image::{Exposure, Image};
+use radiosity::image::Exposure;
 use radiosity::scene::{Material, Scene};
-use radiosity::solver::Solution;
-use radiosity::{
-    Context, How, Observer, Origin, Project, Stage, estimate, render, solve, solve_anew, subdivide,
-};
-use radiosity_tests::{BOTH, shipped};
+use radiosity::solver::{Method, Relaxation};
+use radiosity::{Context, How, Observer, Project, Silent, Stage, estimate, solve_anew, subdivide};
+use radiosity_tests::shipped;
 use std::fs;
-use std::path::PathBuf;
 use std::sync::Mutex;
 use tempfile::TempDir;
-
-/// A scene with a cache folder of its own.
-struct Bench {
-    folder: TempDir,
-    project: Project,
-}
-
-/// What came of a run.
-struct Outcome {
-    solution: Solution,
-    origin: Origin,
-    form_factors: Origin,
-    pictures: Vec<Image>,
-}
-
-impl Outcome {
-    fn of(project: &Project, cache: Option<&Store>) -> Outcome {
-        Outcome::in_context(
-            project,
-            Context {
-                cache,
-                ..Context::default()
-            },
-        )
-    }
-
-    fn in_context(project: &Project, context: Context<'_>) -> Outcome {
-        let Project { scene, params, .. } = project;
-        let patches = subdivide(scene, &params.discretization, context).unwrap();
-        let factors = estimate(&patches, &params.form_factors).unwrap();
-        let solved = solve(&factors, &params.solver).unwrap();
-        let (light, camera) = (solved.light().unwrap(), scene.camera.unwrap());
-        Outcome {
-            pictures: render(&patches, &light, &camera, &params.image, &BOTH).unwrap(),
-            solution: solved.solution,
-            origin: solved.origin,
-            form_factors: solved.form_factors,
-        }
-    }
-}
-
-/// Why form factors and solution were computed; `None` where they were not.
-type Reasons = (Option<String>, Option<String>);
-
-impl Bench {
-    /// With everything cached.
-    fn warm() -> Bench {
-        let mut project = shipped("cornell");
-        project.params.discretization.default = Divisions::uniform(3);
-        let bench = Bench {
-            folder: TempDir::new().unwrap(),
-            project,
-        };
-        bench.solve();
-        bench
-    }
-
-    fn store(&self) -> Store {
-        Store::new(self.folder.path())
-    }
-
-    fn solve(&self) -> Outcome {
-        self.solve_project(&self.project)
-    }
-
-    fn solve_project(&self, project: &Project) -> Outcome {
-        Outcome::of(project, Some(&self.store()))
-    }
-
-    fn reasons(&self) -> Reasons {
-        self.reasons_as(&self.project.scene.name)
-    }
-
-    /// With the scene under this name.
-    fn reasons_as(&self, name: &str) -> Reasons {
-        let mut project = self.project.clone();
-        project.scene.name = name.to_owned();
-        let solved = self.solve_project(&project);
-        (
-            solved.form_factors.reason().map(str::to_owned),
-            solved.origin.reason().map(str::to_owned),
-        )
-    }
-
-    /// The reasons after a change.
-    fn after(change: impl FnOnce(&mut Project)) -> Reasons {
-        let mut bench = Bench::warm();
-        change(&mut bench.project);
-        bench.reasons()
-    }
-
-    /// The only cached file of a stage.
-    fn file(&self, stage: &str) -> PathBuf {
-        let entries = self.store().list().unwrap().into_iter();
-        let name = |path: &PathBuf| path.file_name().unwrap().to_str().unwrap().to_owned();
-        let mut files = entries.map(|entry| entry.path);
-        let is_it = |path: &PathBuf| name(path).starts_with(&format!("{stage}-"));
-        files.find(is_it).unwrap()
-    }
-
-    fn damage(&self, stage: &str, change: impl FnOnce(&mut Vec<u8>)) {
-        let path = self.file(stage);
-        let mut bytes = fs::read(&path).unwrap();
-        change(&mut bytes);
-        fs::write(path, bytes).unwrap();
-    }
-}
-
-fn none() -> Reasons {
-    (None, None)
-}
-
-fn changed_solution() -> Reasons {
-    (None, Some("inputs changed".to_owned()))
-}
-
-fn changed_both() -> Reasons {
-    let changed = Some("inputs changed".to_owned());
-    (changed.clone(), changed)
-}
 
 #[test]
 fn a_cold_run_equals_a_warm_one_byte_for_byte() {
@@ -236,6 +116,15 @@ fn a_changed_solver_setting_needs_a_solution() {
         Bench::after(|p| p.params.solver.max_sweeps = 3),
         changed_solution()
     );
+}
+
+#[test]
+fn settings_that_the_method_ignores_need_nothing() {
+    let mut bench = Bench::warm();
+    bench.project.params.solver.method = Method::ConjugateGradients;
+    bench.solve();
+    bench.project.params.solver.relaxation = Relaxation::Factor(1.3);
+    assert_eq!(bench.reasons(), none());
 }
 
 #[test]
@@ -356,10 +245,7 @@ fn losing_the_form_factors_costs_nothing_while_the_solution_stands() {
 fn recomputing_on_demand_says_so() {
     let bench = Bench::warm();
     let store = bench.store();
-    let context = Context {
-        cache: Some(&store),
-        ..Context::default()
-    };
+    let context = Context::new(Some(&store), &Silent);
     let Project { scene, params, .. } = &bench.project;
     let patches = subdivide(scene, &params.discretization, context).unwrap();
     let factors = estimate(&patches, &params.form_factors).unwrap();
@@ -391,10 +277,7 @@ fn a_cache_that_cannot_be_written_costs_a_note() {
     fs::write(&file, b"").unwrap();
     let store = Store::new(&file);
     let notes = Notes::default();
-    let context = Context {
-        cache: Some(&store),
-        observer: &notes,
-    };
+    let context = Context::new(Some(&store), &notes);
     let solved = Outcome::in_context(&bench.project, context);
     assert_eq!(solved.solution, bench.solve().solution);
     let notes = notes.0.into_inner().unwrap();

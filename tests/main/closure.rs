@@ -1,10 +1,10 @@
 //! Closed form factors are an artifact of their own.
 
 use radiosity::cache::Store;
-use radiosity::form_factors::{FormFactors, Mode};
+use radiosity::form_factors::Mode;
 use radiosity::geometry::Divisions;
-use radiosity::stages::{Factors, FormFactorsMade};
-use radiosity::{Context, How, Origin, Project, RowSummary, estimate, solve, subdivide};
+use radiosity::stages::FormFactorsMade;
+use radiosity::{Context, How, Project, Silent, estimate, solve, subdivide};
 use radiosity_tests::shipped;
 use std::path::Path;
 use tempfile::TempDir;
@@ -17,17 +17,8 @@ fn project(closure: bool) -> Project {
     project
 }
 
-struct Made {
-    form_factors: FormFactors,
-    rows: RowSummary,
-    origin: Origin,
-}
-
 fn in_cache(cache: Option<&Store>) -> Context<'_> {
-    Context {
-        cache,
-        ..Context::default()
-    }
+    Context::new(cache, &Silent)
 }
 
 /// The names of artifacts.
@@ -43,22 +34,11 @@ fn closing_leaves_what_was_estimated_alone() {
     let store = Store::new(folder.path());
     let (raw, closed) = (project(false), project(true));
     let made = |project: &Project, cache: Option<&Store>| {
-        let made = |factors: Factors<'_>| {
-            let FormFactorsMade {
-                form_factors,
-                rows,
-                origin,
-            } = factors.made().unwrap();
-            Made {
-                form_factors: form_factors.clone(),
-                rows: rows.clone(),
-                origin: origin.clone(),
-            }
-        };
         let context = in_cache(cache);
         let Project { scene, params, .. } = project;
         let patches = subdivide(scene, &params.discretization, context).unwrap();
-        made(estimate(&patches, &params.form_factors).unwrap())
+        let factors = estimate(&patches, &params.form_factors).unwrap();
+        factors.made().unwrap()
     };
     let first = made(&raw, Some(&store));
     let second = made(&closed, Some(&store));
@@ -70,7 +50,7 @@ fn closing_leaves_what_was_estimated_alone() {
     assert_eq!(made(&closed, Some(&store)).origin.how, How::Cached);
     assert_eq!(names(&folder).len(), 2);
     assert!(first.rows.closure.is_none() && second.rows.closure.is_some());
-    let values = |made: &Made| made.form_factors.exchange.values().to_vec();
+    let values = |made: &FormFactorsMade| made.form_factors.exchange.values().to_vec();
     assert_ne!(values(&first), values(&second));
     // With and without a file, and read again: the same.
     let in_memory = made(&closed, None);

@@ -105,7 +105,8 @@ fn reported(mesh: &Mesh, light: &PatchLight) -> Shares {
 /// backs and background, whose errors are independent, and the most that the errors of factors add
 /// up to.
 fn errors_of_rows(chain: Chain, light: &PatchLight) -> [f64; 2] {
-    let rows = chain.made().form_factors.rows.iter();
+    let made = chain.made();
+    let rows = made.form_factors.rows.iter();
     let means = light.mean_radiosity();
     let (mut of_rays, mut of_factors) = (0.0, 0.0);
     for ((patch, b), row) in chain.patches.mesh.patches.iter().zip(&means).zip(rows) {

@@ -54,7 +54,8 @@ fn rows_account_for_everything() {
     project.params.form_factors.mode = Mode::Accurate;
     project.params.form_factors.tolerance = 1e-3;
     let chain = Chain::of(&project);
-    let rows = &chain.made().form_factors.rows;
+    let made = chain.made();
+    let rows = &made.form_factors.rows;
     let (mut within, mut sum, mut variance) = (0, 0.0, 0.0);
     for row in rows {
         let difference = row.fronts + row.backs + row.background - 1.0;
@@ -115,7 +116,8 @@ fn exchange_is_reciprocal() {
     let mut reversed = project.clone();
     reversed.scene.surfaces.reverse();
     let chains = [&project, &reversed].map(Chain::of);
-    let [a, b] = chains.map(|chain| &chain.made().form_factors);
+    let made = chains.map(Chain::made);
+    let [a, b] = [&made[0], &made[1]].map(|made| &made.form_factors);
     let [here, there] = chains.map(|chain| &chain.patches.mesh);
     let last_face = here.faces.len() - 1;
     let place = |patch: usize| {
@@ -206,8 +208,8 @@ fn impossible_reflectances_name_their_surfaces() {
         panic!("rows over 1 at reflectance 1 must diverge");
     };
     assert!(matches!(error, Error::Unsolvable { .. }), "{error}");
-    let rows = &chain.made().rows;
-    let worst = chain.patches.surface_name(rows.largest.1 as usize);
+    let worst = chain.made().rows.largest.1;
+    let worst = chain.patches.surface_name(worst as usize);
     let text = error.to_string();
     assert!(
         text.contains(&format!("`{worst}`")) && error.remedy().is_some(),

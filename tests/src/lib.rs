@@ -12,6 +12,7 @@ use radiosity::renderer::Shading;
 use radiosity::stages::{Factors, FormFactorsMade, PatchLight, Patches, Solved};
 use radiosity::{Context, Project, estimate, render, solve, subdivide};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The shadings of the course's pictures.
 pub const BOTH: [Shading; 2] = [Shading::Constant, Shading::Smooth];
@@ -54,7 +55,7 @@ impl Chain {
     }
 
     /// The form factors.
-    pub fn made(self) -> &'static FormFactorsMade {
+    pub fn made(self) -> Arc<FormFactorsMade> {
         self.factors
             .made()
             .unwrap_or_else(|error| panic!("{error}"))

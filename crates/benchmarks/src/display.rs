@@ -58,26 +58,23 @@ pub(crate) fn first_camera(scene: &Scene) -> Result<Camera, radiosity::Error> {
 
 /// Both pictures of the course, and its whole run.
 fn beside_the_course(project: &Project) -> Result<Vec<Figure>, Error> {
-    let patches = subdivide(
-        &project.scene,
-        &project.params.discretization,
-        Context::default(),
-    )?;
-    let factors = estimate(&patches, &project.params.form_factors)?;
-    let light = solve(&factors, &project.params.solver)?.light()?;
-    let camera = first_camera(&project.scene)?;
+    let Project { scene, params, .. } = project;
+    let patches = subdivide(scene, &params.discretization, Context::default())?;
+    let factors = estimate(&patches, &params.form_factors)?;
+    let light = solve(&factors, &params.solver)?.light()?;
+    let camera = first_camera(scene)?;
     let ours = best_seconds(RUNS, || {
-        let pictures = render(&patches, &light, &camera, &project.params.image, &BOTH);
+        let pictures = render(&patches, &light, &camera, &params.image, &BOTH);
         std::hint::black_box(pictures.is_ok());
     });
-    let (mesh, made) = (&patches.mesh, &factors.made()?.form_factors);
+    let (mesh, made) = (&patches.mesh, factors.made()?);
     let course = best_seconds(1, || {
         for is_smooth in [false, true] {
             std::hint::black_box(course_display::render(mesh, &light.radiosity, is_smooth));
         }
     });
     let course_factors = form_factors::baseline_seconds(mesh);
-    let whole = course + course_factors + course::seconds(made);
+    let whole = course + course_factors + course::seconds(&made.form_factors);
     let folder = tempfile::tempdir()?;
     let mut problem = None;
     let cold = best_seconds(RUNS, || problem = cold_run(project, folder.path()).err());
@@ -127,14 +124,11 @@ fn beside_the_course(project: &Project) -> Result<Vec<Figure>, Error> {
 
 /// Everything that `render` does without a cache, but for words.
 fn cold_run(project: &Project, folder: &Path) -> Result<(), Error> {
-    let patches = subdivide(
-        &project.scene,
-        &project.params.discretization,
-        Context::default(),
-    )?;
-    let factors = estimate(&patches, &project.params.form_factors)?;
-    let light = solve(&factors, &project.params.solver)?.light()?;
-    let (camera, params) = (first_camera(&project.scene)?, &project.params.image);
+    let Project { scene, params, .. } = project;
+    let patches = subdivide(scene, &params.discretization, Context::default())?;
+    let factors = estimate(&patches, &params.form_factors)?;
+    let light = solve(&factors, &params.solver)?.light()?;
+    let (camera, params) = (first_camera(scene)?, &params.image);
     let pictures = render(&patches, &light, &camera, params, &BOTH)?;
     let tone = params.tone_map();
     for (name, image) in ["constant", "smooth"].into_iter().zip(&pictures) {

@@ -14,7 +14,7 @@ use radiosity::geometry::Discretization;
 use radiosity::scene::Scene;
 use radiosity::solver::{Convergence, Method, Params, relit};
 use radiosity::stages::{Factors, Patches};
-use radiosity::{Context, Project, estimate, subdivide};
+use radiosity::{Context, Project, Silent, estimate, subdivide};
 use std::path::Path;
 
 /// Patches along each edge of the course's rectangles: 1,728, 6,912 and 27,648 patches.
@@ -40,16 +40,14 @@ const COURSE: f64 = 60.0;
 pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
     let folder = tempfile::tempdir()?;
     let store = Store::new(folder.path());
-    let context = Context {
-        cache: Some(&store),
-        ..Context::default()
-    };
+    let context = Context::new(Some(&store), &Silent);
     let mut figures = Vec::new();
     for divisions in SIZES {
         let cornell = scene(root, "cornell")?;
         let patches = cached(&cornell, divisions, context)?;
         let factors = estimate(&patches, &FACTORS)?;
-        let made = &factors.made()?.form_factors;
+        let made = factors.made()?;
+        let made = &made.form_factors;
         figures.extend(passes(made));
         figures.extend(methods(&factors)?);
         figures.push(beside_the_course(made, &figures));
@@ -97,6 +95,8 @@ fn runs(patches: usize) -> u32 {
 fn methods(factors: &Factors<'_>) -> Result<Vec<Figure>, Error> {
     let patches = factors.patches();
     let (scene, patches) = (&patches.scene().name, patches.mesh.patches.len());
+    // Held, so that they are not read for each solution.
+    let _held = factors.made()?;
     let mut figures = Vec::new();
     for (name, params) in Params::default().by_each_method() {
         let name = name.to_lowercase().replace([' ', '-'], "_");

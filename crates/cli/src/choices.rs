@@ -5,14 +5,16 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use serde::de::value::{Error, StrDeserializer};
 use serde::de::{DeserializeOwned, IntoDeserializer};
 
-/// A choice of a parameter: its name in scene files, and what it means.
+/// A choice of a parameter: its name, which scene files may use too, and what it means.
 type Choice = (&'static str, &'static str);
 
 /// Parses a parameter that has these choices.
 pub(super) fn choice<T: DeserializeOwned + Clone + Send + Sync + 'static>(
     choices: &'static [Choice],
 ) -> impl TypedValueParser<Value = T> {
-    let value = |(name, help): &Choice| PossibleValue::new(*name).help(*help);
+    // Method has a short name beside that of files.
+    let alias = |name: &str| (name == "cg").then_some("conjugate-gradients");
+    let value = |(name, help): &Choice| PossibleValue::new(*name).help(*help).aliases(alias(name));
     let parser = PossibleValuesParser::new(choices.iter().map(value));
     parser.try_map(|name| {
         let name: StrDeserializer<'_, Error> = name.as_str().into_deserializer();

@@ -10,7 +10,7 @@ use super::terminal::Terminal;
 use crate::error::Error;
 use crate::report::{DisplayReport, Report};
 use radiosity::scene::Scene;
-use radiosity::{Context, How, Params, Project, estimate, subdivide};
+use radiosity::{Context, Params, Project, estimate, subdivide};
 use std::time::Instant;
 
 pub(super) fn run(args: &DisplayCommand, site: &Site) -> Result<(), Error> {
@@ -36,10 +36,7 @@ fn display(
     let folder = args.display.output.as_ref().unwrap_or(&site.output);
     let terminal = Terminal::new(args.estimate.json);
     let store = store(&args.estimate, site);
-    let context = Context {
-        cache: store.as_ref(),
-        observer: &terminal,
-    };
+    let context = Context::new(store.as_ref(), &terminal);
     let patches = subdivide(scene, &params.discretization, context)?;
     let factors = estimate(&patches, &params.form_factors)?;
     let shots = args.display.views.shots(scene, &patches.mesh)?;
@@ -47,14 +44,15 @@ fn display(
     check_names(&args.display, &looks, &shots)?;
     make_folder(folder)?;
     let mut report = Report::new(&patches, &terminal);
-    let solved = solved(&factors, &params.solver, false, &mut report)?;
+    let needs_factors = looks.iter().any(|look| look.quantity.needs_factors());
+    let (solved, _held) = solved(
+        &factors,
+        &params.solver,
+        (false, needs_factors),
+        &mut report,
+    )?;
     let light = solved.relight(&dimming)?;
     report.solution(&solved, &patches, &dimming, &light.energy);
-    let needs_factors = looks.iter().any(|look| look.quantity.needs_factors());
-    if needs_factors && solved.form_factors.how == How::NotNeeded {
-        let made = factors.made()?;
-        report.form_factors(&made.origin, &made.rows, &factors);
-    }
     let start = Instant::now();
     let mut series = Series {
         args: &args.display,

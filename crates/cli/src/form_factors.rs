@@ -24,10 +24,7 @@ pub(super) fn run(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
     let terminal = Terminal::new(args.estimate.json);
     with_threads(args.estimate.threads, || {
         let store = store(&args.estimate, site);
-        let context = Context {
-            cache: store.as_ref(),
-            observer: &terminal,
-        };
+        let context = Context::new(store.as_ref(), &terminal);
         let patches = subdivide(&scene, &params.discretization, context)?;
         let factors = estimate(&patches, &params.form_factors)?;
         let mut report = Report::new(&patches, &terminal);

@@ -64,7 +64,7 @@ pub struct DisplayArgs {
     #[command(flatten)]
     pub image: ImageArgs,
     /// Degrees between normals below which neighbouring faces of a mesh are shaded as one smooth
-    /// surface [default: 30]
+    /// surface [default: the scene's, or 30]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     pub crease_angle: Option<f64>,
     /// Samples per sub-pixel
@@ -76,7 +76,7 @@ pub struct DisplayArgs {
     #[arg(long, value_enum)]
     pub direct: Option<DirectArg>,
     /// Look around from each sample for the light that is reflected more often, in N directions
-    /// [default: 4]; light straight from emitters is exact then
+    /// [default: the scene's, or 4]; light straight from emitters is exact then
     #[arg(long, value_name = "N", num_args = 0..=1, value_parser = parse_directions, conflicts_with = "direct")]
     pub gather: Option<Option<u32>>,
     /// The pictures to make, instead [default: constant,smooth]
@@ -89,7 +89,7 @@ pub struct DisplayArgs {
     )]
     pub shading: Vec<ShadingArg>,
     /// Take up to N times as many samples where a pixel shows several faces of different
-    /// brightness [default: 1]
+    /// brightness [default: the scene's, or 1]
     #[arg(long, value_name = "N")]
     pub adaptive: Option<u32>,
     /// Folder for the pictures [default: out]

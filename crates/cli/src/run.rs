@@ -17,12 +17,13 @@ use crate::plot::convergence_plot;
 use crate::report::Report;
 use radiosity::cache::{Changed, Store, replace_file_by};
 use radiosity::solver::Params;
-use radiosity::stages::{Factors, Solved};
+use radiosity::stages::{Factors, FormFactorsMade, Solved};
 use radiosity::{Context, Project, estimate, radiosity_table, subdivide};
 use radiosity_simd::InstructionSet;
 use std::io;
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::Arc;
 
 /// Runs a command and prints what it has to say; the exit code is 0, or that of the error.
 pub fn run(command: &Command, site: &Site) -> ExitCode {
@@ -71,14 +72,12 @@ fn solve(args: &SolveCommand, site: &Site, is_anew: bool) -> Result<(), Error> {
     let terminal = Terminal::new(args.estimate.json);
     with_threads(args.estimate.threads, || {
         let store = store(&args.estimate, site);
-        let context = Context {
-            cache: store.as_ref(),
-            observer: &terminal,
-        };
+        let context = Context::new(store.as_ref(), &terminal);
         let patches = subdivide(&scene, &params.discretization, context)?;
         let factors = estimate(&patches, &params.form_factors)?;
         let mut report = Report::new(&patches, &terminal);
-        let solved = solved(&factors, &params.solver, is_anew, &mut report)?;
+        let how = (is_anew, args.plot.is_some());
+        let (solved, _held) = solved(&factors, &params.solver, how, &mut report)?;
         let light = solved.relight(&dimming)?;
         report.solution(&solved, &patches, &dimming, &light.energy);
         if let Some(path) = &args.export {
@@ -95,26 +94,30 @@ fn solve(args: &SolveCommand, site: &Site, is_anew: bool) -> Result<(), Error> {
     })
 }
 
-/// The solution. Form factors are reported as soon as they are there, and before anything is solved.
+/// The solution, made anew or not, and the form factors, if they are needed afterwards. They are
+/// reported as soon as they are there, and before anything is solved.
 pub(super) fn solved<'a>(
     factors: &'a Factors<'a>,
     params: &Params,
-    is_anew: bool,
+    (is_anew, needs_factors): (bool, bool),
     report: &mut Report<'_>,
-) -> Result<Solved<'a>, Error> {
+) -> Result<(Solved<'a>, Option<Arc<FormFactorsMade>>), Error> {
     let is_cached = !is_anew && factors.have_solution(params);
-    if !is_cached {
-        let made = factors.made()?;
+    let made = match is_cached && !needs_factors {
+        true => None,
+        false => Some(factors.made()?),
+    };
+    if let Some(made) = &made {
         report.form_factors(&made.origin, &made.rows, factors);
     }
     let solved = match is_anew {
         true => radiosity::solve_anew(factors, params),
         false => radiosity::solve(factors, params),
     }?;
-    if is_cached {
+    if made.is_none() {
         report.form_factors(&solved.form_factors, &solved.rows, factors);
     }
-    Ok(solved)
+    Ok((solved, made.filter(|_| needs_factors)))
 }
 
 pub(super) fn store(args: &EstimateArgs, site: &Site) -> Option<Store> {

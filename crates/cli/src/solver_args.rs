@@ -11,17 +11,18 @@ use radiosity::solver::{Method, Params, Relaxation};
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Solution")]
 pub struct SolveArgs {
-    /// How to solve [default: gauss-seidel]
+    /// How to solve [default: the scene's, or gauss-seidel]
     #[arg(long, value_parser = choice::<Method>(&METHODS))]
     pub solver: Option<Method>,
     /// Factor on each change of Gauss-Seidel, between 0 and 2, or auto: what the convergence of the
-    /// first sweeps suggests; 1 is plain Gauss-Seidel [default: auto]
+    /// first sweeps suggests; 1 is plain Gauss-Seidel [default: the
+    /// scene's, or auto]
     #[arg(long, value_name = "X|auto", value_parser = number_or_word::<Relaxation>, allow_negative_numbers = true)]
     pub relaxation: Option<Relaxation>,
-    /// Relative residual at which the solver stops [default: 1e-6]
+    /// Relative residual at which the solver stops [default: the scene's, or 1e-6]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub residual: Option<f64>,
-    /// Most passes over the matrix to take [default: 200]
+    /// Most passes over the matrix to take [default: the scene's, or 200]
     #[arg(long, value_name = "N")]
     pub max_sweeps: Option<u32>,
 }

@@ -20,7 +20,7 @@ pub struct ViewArgs {
     /// Go along a smooth path through the views (all, if not told otherwise), in N numbered pictures
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=9999), conflicts_with = "turntable")]
     pub path: Option<u32>,
-    /// What is seen of the backs of surfaces [default: black]
+    /// What is seen of the backs of surfaces [default: the scene's, or black]
     #[arg(long, value_parser = choice::<Backs>(&BACKS))]
     pub backs: Option<Backs>,
     /// Write a sheet of all pictures of the run, too: NAME-sheet.png

@@ -18,9 +18,9 @@ pub struct Begun {
     pub rows: Range<usize>,
     /// Their values, one row after the other.
     pub values: Vec<f32>,
-    /// Against so many tiles they are estimated.
+    /// They are estimated against the first so many tiles.
     tiles: usize,
-    /// And against so many more in the next part.
+    /// How many tiles the next part adds.
     #[serde(skip, default = "one")]
     step: usize,
 }

@@ -4,8 +4,8 @@ use crate::Estimator;
 use radiosity_params::OutOfRange;
 use serde::{Deserialize, Serialize};
 
-/// How form factors are estimated: `[form_factors]` of a scene file. Of the fields only those of
-/// the mode matter ([`Params::estimator`]).
+/// How form factors are estimated: `[form_factors]` of a scene file. Fields that the mode
+/// does not use are ignored ([`Params::estimator`]).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Params {

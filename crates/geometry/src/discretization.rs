@@ -26,8 +26,20 @@ pub enum Divisions {
     /// that are narrow are cut along each edge as its length asks for, the others alike along all
     /// edges.
     MaxEdge(f64),
-    /// No cells at all: the surface stands in the way, and neither emits nor receives.
+    /// No cells at all: the surface stands in the way, and neither emits nor receives. In files,
+    /// `divisions = "none"`.
     Uncut,
+}
+
+/// A shape of a scene, and what tells how it is cut.
+#[derive(Clone, Copy, Debug)]
+pub struct NamedShape<'a> {
+    /// The name of its surface.
+    pub name: &'a str,
+    /// Its geometry.
+    pub shape: &'a Shape,
+    /// Whether it only stands in the way: it is not cut, whatever the rules say.
+    pub is_obstruction: bool,
 }
 
 /// How finely all surfaces of a scene are cut.
@@ -40,7 +52,7 @@ pub enum Divisions {
 /// params.surfaces.insert("floor".to_owned(), Divisions::MaxEdge(0.1));
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, deny_unknown_fields)]
 pub struct Discretization {
     /// The rule for surfaces that have none of their own. A count leaves the faces of meshes
     /// whole. Default: 12.
@@ -53,6 +65,16 @@ impl Divisions {
     /// The same count along both edges.
     pub const fn uniform(n: u32) -> Divisions {
         Divisions::Count { a: n, b: n }
+    }
+
+    /// Whether a shape can be cut like this: triangles take one count.
+    pub fn suit(&self, shape: &Shape) -> bool {
+        match *self {
+            Divisions::Count { a, b } if a != b => shape
+                .polygons()
+                .is_ok_and(|polygons| !polygons.iter().any(|(_, polygon)| polygon.is_triangle())),
+            _ => true,
+        }
     }
 }
 
@@ -89,7 +111,7 @@ impl Discretization {
         Discretization::from(Divisions::uniform(n))
     }
 
-    /// Every face one patch, but for what is not cut at all.
+    /// Every face one patch, but for surfaces whose rule is that they have none.
     pub fn by_faces(&self) -> Discretization {
         let uncut = self.surfaces.iter();
         let uncut = uncut.filter(|(_, divisions)| **divisions == Divisions::Uncut);
@@ -99,15 +121,14 @@ impl Discretization {
         }
     }
 
-    /// What [`subdivide`](crate::subdivide()) takes beside the default: shapes with their own rules,
-    /// found by the names of their surfaces.
-    pub fn of_shapes<'a>(
-        &self,
-        shapes: impl IntoIterator<Item = (&'a str, &'a Shape)>,
-    ) -> Vec<Surface> {
-        let surface = |(name, shape): (&str, &Shape)| Surface {
-            shape: shape.clone(),
-            divisions: self.surfaces.get(name).copied(),
+    /// The surfaces for [`subdivide`](crate::subdivide()), each with its rule.
+    pub fn of_shapes<'a>(&self, shapes: impl IntoIterator<Item = NamedShape<'a>>) -> Vec<Surface> {
+        let surface = |named: NamedShape<'_>| Surface {
+            shape: named.shape.clone(),
+            divisions: match named.is_obstruction {
+                true => Some(Divisions::Uncut),
+                false => self.surfaces.get(named.name).copied(),
+            },
         };
         shapes.into_iter().map(surface).collect()
     }
@@ -132,16 +153,23 @@ struct Cells {
     max_patch_edge: Option<f64>,
 }
 
-/// `12` or `[12, 8]`.
+/// `12`, `[12, 8]` or `"none"`.
 #[derive(Serialize)]
-struct Counts(u32, u32);
+#[serde(untagged)]
+enum Counts {
+    Both(u32, u32),
+    None(&'static str),
+}
+
+const NONE: &str = "none";
 
 impl TryFrom<Cells> for Divisions {
     type Error = &'static str;
 
     fn try_from(cells: Cells) -> Result<Divisions, &'static str> {
         match (cells.divisions, cells.max_patch_edge) {
-            (Some(Counts(a, b)), None) => Ok(Divisions::Count { a, b }),
+            (Some(Counts::Both(a, b)), None) => Ok(Divisions::Count { a, b }),
+            (Some(Counts::None(_)), None) => Ok(Divisions::Uncut),
             (None, Some(length)) => Ok(Divisions::MaxEdge(length)),
             (None, None) => Ok(Divisions::default()),
             (Some(_), Some(_)) => {
@@ -154,9 +182,9 @@ impl TryFrom<Cells> for Divisions {
 impl From<Divisions> for Cells {
     fn from(divisions: Divisions) -> Cells {
         let (divisions, max_patch_edge) = match divisions {
-            Divisions::Count { a, b } => (Some(Counts(a, b)), None),
+            Divisions::Count { a, b } => (Some(Counts::Both(a, b)), None),
             Divisions::MaxEdge(length) => (None, Some(length)),
-            Divisions::Uncut => (Some(Counts(0, 0)), None),
+            Divisions::Uncut => (Some(Counts::None(NONE)), None),
         };
         Cells {
             divisions,
@@ -172,14 +200,27 @@ impl<'de> Deserialize<'de> for Counts {
             type Value = Counts;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a whole number or two whole numbers [along a, along b]")
+                f.write_str("a whole number, two whole numbers [along a, along b], or \"none\"")
             }
 
             fn visit_i64<E: Error>(self, value: i64) -> Result<Counts, E> {
                 let unexpected = serde::de::Unexpected::Signed(value);
                 let count =
                     u32::try_from(value).map_err(|_| Error::invalid_value(unexpected, &self))?;
-                Ok(Counts(count, count))
+                Ok(Counts::Both(count, count))
+            }
+
+            fn visit_u64<E: Error>(self, value: u64) -> Result<Counts, E> {
+                let value = i64::try_from(value).unwrap_or(i64::MAX);
+                self.visit_i64(value)
+            }
+
+            fn visit_str<E: Error>(self, word: &str) -> Result<Counts, E> {
+                if word == NONE {
+                    Ok(Counts::None(NONE))
+                } else {
+                    Err(E::invalid_value(serde::de::Unexpected::Str(word), &self))
+                }
             }
 
             fn visit_seq<A: SeqAccess<'de>>(self, mut sequence: A) -> Result<Counts, A::Error> {
@@ -188,7 +229,7 @@ impl<'de> Deserialize<'de> for Counts {
                     counts.push(count);
                 }
                 match counts[..] {
-                    [a, b] => Ok(Counts(a, b)),
+                    [a, b] => Ok(Counts::Both(a, b)),
                     _ => Err(Error::invalid_length(counts.len(), &self)),
                 }
             }

@@ -48,7 +48,7 @@ pub use bundle::{Bundle, Points};
 pub use camera::{Camera, CameraError};
 pub use check::{ShapeError, has_area};
 pub use covers::{Covered, Covers};
-pub use discretization::{Discretization, Divisions};
+pub use discretization::{Discretization, Divisions, NamedShape};
 pub use film::{Film, PixelFilter};
 pub use glam::{DVec2, DVec3};
 pub use locate::Location;

@@ -130,15 +130,21 @@ impl Mesh {
         &self.faces[self.patches[patch].face.index()]
     }
 
-    /// The patches of each input face of a surface, if faces are in the order in which they were
-    /// given: the halves of a quad follow each other.
+    /// The patches of each input face of a surface, in the order of the input. The halves of a quad
+    /// follow each other.
+    ///
+    /// # Panics
+    ///
+    /// If the faces are not in the order in which they were given
+    /// ([`FaceOrder`](crate::FaceOrder)).
     pub fn patches_of_surface(&self, surface: SurfaceId) -> Vec<std::ops::Range<usize>> {
         let own = self.faces.iter().filter(|face| face.surface == surface);
         let mut ranges: Vec<std::ops::Range<usize>> = Vec::new();
         for face in own {
-            match ranges.get_mut(face.input_index as usize) {
-                Some(range) => range.end = face.patches().end,
-                None => ranges.push(face.patches()),
+            match face.input_index as usize + 1 {
+                known if known == ranges.len() => ranges[known - 1].end = face.patches().end,
+                next if next == ranges.len() + 1 => ranges.push(face.patches()),
+                _ => panic!("faces are not in the order in which they were given"),
             }
         }
         ranges

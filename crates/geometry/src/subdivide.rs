@@ -98,8 +98,9 @@ pub enum FaceOrder {
 }
 
 /// Cuts all surfaces into patches, numbered in the order of surfaces, their faces, and the cells of
-/// these: the patches of face `k` are `mesh.faces[k].patches()`. A quad of a mesh that is not
-/// planar is two faces; [`Mesh::patches_of_surface`] takes them together.
+/// these: the patches of face `k` are `mesh.faces[k].patches()`. A quad of a mesh is two faces if
+/// it is not planar, or if it is slanted and cut by edge length; [`Mesh::patches_of_surface`]
+/// takes them together.
 ///
 /// A count as `default` applies to parallelograms, triangles and quads; the faces of meshes
 /// are patches as they are unless the default is an edge length or the surface has its own

@@ -28,7 +28,7 @@ pub fn serialize<T: NumberOrWord, S: Serializer>(
     }
 }
 
-/// Reads either, from a format that says which of them it is.
+/// Reads either, from a format that describes itself, such as TOML or JSON.
 pub fn deserialize<'de, T: NumberOrWord, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<T, D::Error> {

@@ -14,12 +14,16 @@ pub struct Context<'a> {
     pub observer: &'a dyn Observer,
 }
 
+impl<'a> Context<'a> {
+    /// With a cache, if there is one, and an observer.
+    pub fn new(cache: Option<&'a Store>, observer: &'a dyn Observer) -> Context<'a> {
+        Context { cache, observer }
+    }
+}
+
 impl Default for Context<'_> {
     fn default() -> Self {
-        Context {
-            cache: None,
-            observer: &Silent,
-        }
+        Context::new(None, &Silent)
     }
 }
 

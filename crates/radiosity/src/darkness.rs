@@ -87,11 +87,7 @@ fn emits(scene: &Scene, face: &Face) -> bool {
 /// Whether it emits with its light dimmed.
 fn is_lit(scene: &Scene, dimming: &Dimming, face: &Face) -> bool {
     let material = scene.material(face.surface, face.input_index);
-    let factor = material
-        .light
-        .map_or([1.0; 3], |light| dimming.factors()[light]);
-    let is_lit = |c: usize| factor[c] * material.emission[c] != 0.0;
-    (0..3).any(is_lit) && !face.is_bare()
+    material.dimmed_emission(dimming.lights()) != [0.0; 3] && !face.is_bare()
 }
 
 /// Whether other faces lie on all of a face, and so take its light.

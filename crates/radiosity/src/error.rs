@@ -5,7 +5,7 @@ use radiosity_cache::{CacheError, Changed};
 use radiosity_form_factors::Mode;
 use radiosity_geometry::{Discretization, LEAST_SIZE, MeshError, count_patches};
 use radiosity_params::OutOfRange;
-use radiosity_scene::{FileKind, Scene, SceneError};
+use radiosity_scene::{FileKind, Scene, SceneError, suggestion};
 use radiosity_solver::SolveError;
 
 /// Why a stage ended without its result. What mends it is [`Error::remedy`].
@@ -27,9 +27,11 @@ pub enum Error {
         /// Its name.
         material: String,
     },
-    /// A light was asked for that the scene does not have.
-    #[error("there is no light `{name}`")]
-    NoSuchLight {
+    /// A light or a surface was asked for that the scene does not have.
+    #[error("there is no {what} `{name}`")]
+    NotInScene {
+        /// What was asked for.
+        what: &'static str,
         /// What it was called.
         name: String,
         /// What there is.
@@ -78,7 +80,7 @@ impl Error {
     pub fn remedy(&self) -> Option<Remedy> {
         match self {
             Error::Scene(_) | Error::NoLight { .. } | Error::OutOfRange(_) => None,
-            Error::NoSuchLight { help, .. } => Some(Remedy::words(help)),
+            Error::NotInScene { help, .. } => Some(Remedy::words(help)),
             Error::NoCamera { file } => Some(match file {
                 FileKind::Toml => Remedy::Camera,
                 FileKind::View3D => Remedy::SceneFile,
@@ -90,6 +92,19 @@ impl Error {
             }
             Error::Cache(_) => Some(Remedy::CacheFolder),
             Error::Changed(_) => Some(Remedy::RunAgain),
+        }
+    }
+
+    /// Something of this name was asked for, and there are others.
+    pub(crate) fn not_in_scene<'n>(
+        what: &'static str,
+        name: &str,
+        known: impl Iterator<Item = &'n str> + Clone,
+    ) -> Error {
+        Error::NotInScene {
+            what,
+            name: name.to_owned(),
+            help: suggestion(name, known).unwrap_or_else(|| format!("the scene has no {what}")),
         }
     }
 

@@ -5,7 +5,7 @@
 pub enum Stage {
     /// Counted in pairs of patches.
     FormFactors,
-    /// Counted in hundredths of the way from the first residual to the tolerance.
+    /// Counted in hundredths of the way from the first residual to the residual that is asked for.
     Solve,
     /// Counted in rows of pixels.
     Display,

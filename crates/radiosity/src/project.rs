@@ -2,12 +2,13 @@
 
 use crate::error::Error;
 use radiosity_form_factors as form_factors;
-use radiosity_geometry::{Discretization, Divisions};
+use radiosity_geometry::{Discretization, Divisions, Shape};
 use radiosity_params::{OutOfRange, Parameters};
 use radiosity_renderer::ImageParams;
 use radiosity_scene::{FileKind, Loaded, MeshFiles, Scene, Tables};
 use radiosity_solver as solver;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// A scene, and how its file wants it to be computed.
@@ -17,7 +18,7 @@ pub struct Project {
     pub scene: Scene,
     /// The parameters of the stages.
     pub params: Params,
-    /// What was assumed, left out, or read by an old name.
+    /// Notes for the user: what was assumed, left out, or read by an old name.
     pub notes: Vec<String>,
 }
 
@@ -90,19 +91,23 @@ impl Params {
 }
 
 fn discretization(scene: &Scene, tables: &mut Tables<'_>) -> Result<Discretization, Error> {
-    let own = tables.take_of_surfaces::<Divisions>(&OF_SURFACES)?;
-    let obstructions = scene
-        .surfaces
-        .iter()
-        .filter(|surface| surface.is_obstruction);
-    let obstructions = obstructions.map(|surface| (surface.name.clone(), Divisions::Uncut));
+    let shapes = scene.shapes().map(|named| (named.name, named.shape));
+    let shapes: BTreeMap<&str, &Shape> = shapes.collect();
+    let own = tables.take_of_surfaces(&OF_SURFACES, |name, divisions: &Divisions| {
+        let is_good = shapes.get(name).is_none_or(|shape| divisions.suit(shape));
+        OutOfRange::unless(
+            is_good,
+            "divisions",
+            "one number, as the surface is made of triangles",
+        )
+    })?;
     Ok(Discretization {
         default: match scene.kind {
             FileKind::Toml => tables.take("discretization")?,
             // Its surfaces are what view factors are wanted of.
             FileKind::View3D => Divisions::uniform(1),
         },
-        surfaces: own.into_iter().chain(obstructions).collect(),
+        surfaces: own.into_iter().collect(),
     })
 }
 
@@ -119,4 +124,4 @@ fn rename(tables: &mut Tables<'_>) -> Vec<String> {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

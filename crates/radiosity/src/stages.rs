@@ -16,8 +16,8 @@
 //! ```
 //!
 //! Form factors and solutions are taken from the cache of the [`Context`](crate::Context), if it has
-//! one, each under the digest of what its stage reads. Form factors are made when something asks
-//! for them: a cached solution does not.
+//! one, each under the digest of what its stage reads. Form factors are made when they are first
+//! needed: a cached solution needs none.
 
 mod dimming;
 mod factors;
@@ -32,3 +32,6 @@ pub use light::PatchLight;
 pub use patches::{Patches, subdivide};
 pub use pictures::{Quantity, Shown, render, render_by, save_png, show};
 pub use solution::{Solved, solve, solve_anew};
+
+#[cfg(test)]
+mod tests;

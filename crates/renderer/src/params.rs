@@ -21,7 +21,7 @@ pub struct ImageParams {
     /// Samples per sub-pixel, 1 to 64. Default: 4.
     pub samples: u32,
     /// How many times as many samples a pixel may take that shows several faces of different
-    /// brightness, 1 to 64; 1 for all as many. Default: 1.
+    /// brightness, 1 to 64; with 1, every pixel takes the same number. Default: 1.
     pub adaptive: u32,
     /// Directions in which [`Shading::Gathered`](crate::Shading::Gathered) looks from each sample,
     /// 1 to 4096. Default: 4.

@@ -94,7 +94,7 @@ impl<'a> Renderer<'a> {
         rendering.finish()
     }
 
-    /// [`Renderer::render`] some rows at a time, for whoever wants to know how far it is.
+    /// [`Renderer::render`] some rows at a time, to show progress.
     pub fn begin<'s>(&'s self, camera: &'s Camera, params: &ImageParams) -> Rendering<'s> {
         Rendering::new(self, camera, params)
     }
@@ -119,7 +119,7 @@ pub struct Rendering<'s> {
 /// Rows that take less than this are followed by more at a time.
 const STEP: Duration = Duration::from_millis(50);
 /// Rows of the first step for each thread: threads wait for each other at its end.
-const FIRST_ROWS: usize = 16;
+const FIRST_ROWS: usize = 2;
 
 impl<'s> Rendering<'s> {
     fn new(renderer: &'s Renderer<'s>, camera: &'s Camera, params: &ImageParams) -> Rendering<'s> {
@@ -145,15 +145,14 @@ impl<'s> Rendering<'s> {
 
     /// Takes some more rows and tells how many; `None` if all are done.
     pub fn advance(&mut self) -> Option<u32> {
-        let first = self.fragments.len();
+        let (first, length) = (self.fragments.len(), self.row_length());
         let rows = self.step.min(self.sampled.height as usize - first);
-        if rows == 0 {
+        if rows == 0 || length == 0 {
             return None;
         }
         let start = Instant::now();
-        let length = self.row_length();
         let pixels = &mut self.pixels[first * length..(first + rows) * length];
-        let rows = pixels.par_chunks_mut(length.max(1)).enumerate();
+        let rows = pixels.par_chunks_mut(length).enumerate();
         let sampler = &self.sampler;
         let take = |(y, row): (usize, &mut [Rgb])| sampler.sample_row((first + y) as u32, row);
         self.fragments.par_extend(rows.map(take));

@@ -39,7 +39,16 @@ impl Scene {
     }
 
     /// Adds a material. If it emits, it is a light of its own, which has its name.
+    ///
+    /// # Panics
+    ///
+    /// If there is a material of this name.
     pub fn add_material(&mut self, material: Material) -> MaterialId {
+        let is_new = self
+            .materials
+            .iter()
+            .all(|known| known.name != material.name);
+        assert!(is_new, "there are two materials named `{}`", material.name);
         let emits = material.emission != [0.0; 3];
         let light = emits.then_some(self.lights.len());
         if emits {

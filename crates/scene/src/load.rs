@@ -23,7 +23,7 @@ pub struct Loaded<'t> {
     pub scene: Scene,
     /// Tables that are no part of it.
     pub tables: Tables<'t>,
-    /// What its files say that means nothing here, and what of them was left out.
+    /// Notes for the user: parts of the files that are ignored or left out.
     pub notes: Vec<String>,
 }
 
@@ -79,6 +79,9 @@ pub fn parse<'t>(
     }
     let document = DeTable::parse(text).map_err(|error| error_of(&source, &error, 0..0))?;
     let (document, tables) = Tables::split(source, document, &TABLES);
+    if let Some(error) = tables.mistyped(document.get_ref()) {
+        return Err(error);
+    }
     let file = SceneFile::deserialize(document.into_deserializer());
     let file = file.map_err(|error| error_of(&source, &error, 0..0))?;
     let (scene, notes) = scene(source, file, mesh_files)?;

@@ -1,5 +1,6 @@
 //! `[materials.NAME]`.
 
+use crate::light::Light;
 use crate::source::{Complaint, SceneError, Source};
 use crate::values::{Color, check_name, require};
 use serde::Deserialize;
@@ -18,6 +19,15 @@ pub struct Material {
     pub emission: [f64; 3],
     /// The light that it belongs to, by its number in the scene, if it emits and is on a surface.
     pub light: Option<usize>,
+}
+
+impl Material {
+    /// What it emits with its light, of all of them, dimmed and tinted.
+    pub fn dimmed_emission(&self, lights: &[Light]) -> [f64; 3] {
+        let light = self.light.and_then(|light| lights.get(light));
+        let factor = light.map_or([1.0; 3], Light::dimming);
+        std::array::from_fn(|c| factor[c] * self.emission[c])
+    }
 }
 
 /// What radiosities in single precision can follow.

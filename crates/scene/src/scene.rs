@@ -4,7 +4,7 @@ use crate::camera::View;
 use crate::light::Light;
 use crate::material::Material;
 use crate::surface::Surface;
-use radiosity_geometry::{Camera, Shape, SurfaceId};
+use radiosity_geometry::{Camera, NamedShape, SurfaceId};
 
 /// What kind of file a scene comes from: not all say the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +26,8 @@ pub struct Scene {
     pub surfaces: Vec<Surface>,
     /// All materials.
     pub materials: Vec<Material>,
-    /// The groups of emitters that are dimmed together; only those that are on surfaces.
+    /// The groups of emitters that are dimmed together; of scenes that were read, only those that
+    /// are on surfaces.
     pub lights: Vec<Light>,
     /// The camera, if the scene has one.
     pub camera: Option<Camera>,
@@ -37,10 +38,13 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The names of the surfaces, and their shapes.
-    pub fn shapes(&self) -> impl Iterator<Item = (&str, &Shape)> {
-        let surfaces = self.surfaces.iter();
-        surfaces.map(|surface| (surface.name.as_str(), &surface.shape))
+    /// The shapes of the surfaces, for whoever cuts them.
+    pub fn shapes(&self) -> impl Iterator<Item = NamedShape<'_>> {
+        self.surfaces.iter().map(|surface| NamedShape {
+            name: &surface.name,
+            shape: &surface.shape,
+            is_obstruction: surface.is_obstruction,
+        })
     }
 
     /// The material of a face, by its surface and its input index.
@@ -64,8 +68,6 @@ impl Scene {
 
     /// What a material emits with its light as bright as the scene has it.
     pub fn dimmed_emission(&self, material: &Material) -> [f64; 3] {
-        let light = material.light.and_then(|light| self.lights.get(light));
-        let dimming = light.map_or([1.0; 3], Light::dimming);
-        std::array::from_fn(|c| dimming[c] * material.emission[c])
+        material.dimmed_emission(&self.lights)
     }
 }

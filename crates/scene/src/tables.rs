@@ -1,15 +1,20 @@
-//! What a scene file says that is no part of the scene: parameters of whoever works with it, in
-//! tables of their own and in keys of surfaces.
+//! What a scene file says that is no part of the scene: parameters of later stages, in tables of
+//! their own and in keys of surfaces.
 
 use crate::error::SceneError;
 use crate::file::TABLES;
 use crate::source::{Complaint, Source};
 use crate::surface::KEYS;
-use radiosity_params::Parameters;
+use radiosity_params::{OutOfRange, Parameters};
 use serde::de::IntoDeserializer;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
+
+/// Tables that every scene has.
+const REQUIRED: [&str; 2] = ["materials", "surfaces"];
+/// Names that are alike to this degree may be meant for each other.
+const NEAR: f64 = 0.9;
 
 /// Tables and keys that are no part of the scene, to be taken one after the other.
 pub struct Tables<'t> {
@@ -79,15 +84,24 @@ impl<'t> Tables<'t> {
     pub fn take<P: Parameters>(&mut self, table: &'static str) -> Result<P, SceneError> {
         self.known.push(table);
         match self.tables.remove(table) {
-            Some(table) => params(&self.source, table),
+            Some(value) if !value.get_ref().is_table() => {
+                let complaint = Complaint::new(
+                    format!("`{table}` is no table"),
+                    format!("write [{table}], and keys below it"),
+                );
+                Err(self.source.error(value.span(), &complaint))
+            }
+            Some(value) => params(&self.source, value, P::check),
             None => Ok(P::default()),
         }
     }
 
-    /// The parameters in keys of surfaces, with the names of those that have any.
+    /// The parameters in keys of surfaces, with the names of those that have any. `check` is told
+    /// the name and refuses what does not suit the surface.
     pub fn take_of_surfaces<P: Parameters>(
         &mut self,
         keys: &[&str],
+        check: impl Fn(&str, &P) -> Result<(), OutOfRange>,
     ) -> Result<Vec<(String, P)>, SceneError> {
         let source = &self.source;
         let known = || KEYS.iter().chain(keys).copied();
@@ -98,12 +112,28 @@ impl<'t> Tables<'t> {
             let start = table.keys().map(|key| key.span().start).min();
             let start = start.unwrap_or_default();
             let value = Spanned::new(start..start + 1, DeValue::Table(table));
-            Ok((name, params(source, value)?))
+            let params = params(source, value, |own: &P| {
+                own.check().and_then(|()| check(&name, own))
+            })?;
+            Ok((name, params))
         };
         std::mem::take(&mut self.of_surfaces)
             .into_iter()
             .map(read)
             .collect()
+    }
+
+    /// A table whose name is nearly that of one that the scene must have and has not.
+    pub(crate) fn mistyped(&self, scene: &DeTable<'t>) -> Option<SceneError> {
+        let missing = REQUIRED.iter().filter(|name| !scene.contains_key(**name));
+        let is_near = |name: &str, key: &str| strsim::jaro_winkler(name, key) > NEAR;
+        let found = missing.flat_map(|name| {
+            let keys = self.tables.keys();
+            keys.filter(move |key| is_near(name, key.get_ref()))
+        });
+        let key = found.min_by_key(|key| key.span().start)?;
+        let complaint = no_such("table", key.get_ref(), TABLES.iter().copied());
+        Some(self.source.error(key.span(), &complaint))
     }
 
     /// Refuses tables and keys that nobody has taken.
@@ -149,6 +179,7 @@ fn no_such<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n str> + Cl
 fn params<'t, P: Parameters>(
     source: &Source<'t>,
     table: Spanned<DeValue<'t>>,
+    check: impl FnOnce(&P) -> Result<(), OutOfRange>,
 ) -> Result<P, SceneError> {
     let spans = table.get_ref().as_table().into_iter().flatten();
     let spans: Vec<(String, Range<usize>)> = spans
@@ -157,7 +188,7 @@ fn params<'t, P: Parameters>(
     let start = table.span().start;
     let params = P::deserialize(table.into_deserializer());
     let params = params.map_err(|error| error_of(source, &error, start..start + 1))?;
-    params.check().map_err(|error| {
+    check(&params).map_err(|error| {
         let mut spans = spans.into_iter();
         let span = spans.find(|(key, _)| key == error.key);
         let span = span.map_or(start..start + 1, |(_, span)| span);

@@ -81,7 +81,18 @@ impl radiosity_params::Parameters for Params {
 }
 
 impl Params {
-    /// The same by each method, with its name, for whoever compares them.
+    /// The same, with defaults for what the method does not use: all that a solution depends on.
+    pub fn used(&self) -> Params {
+        match self.method {
+            Method::GaussSeidel => *self,
+            Method::ConjugateGradients => Params {
+                relaxation: Relaxation::default(),
+                ..*self
+            },
+        }
+    }
+
+    /// One set of parameters for each method, and the method's name.
     pub fn by_each_method(&self) -> [(&'static str, Params); 3] {
         let plain = Relaxation::Factor(1.0);
         [

@@ -47,7 +47,7 @@ pub fn solve(system: &System<'_>, params: &Params) -> Result<Solution, SolveErro
     solver.finish()
 }
 
-/// [`solve`] pass by pass, for whoever wants to know how far it is.
+/// [`solve`] pass by pass, to show progress.
 pub struct Solver<'a> {
     system: &'a System<'a>,
     params: Params,

@@ -27,7 +27,7 @@ pub struct System<'a> {
 }
 
 impl<'a> System<'a> {
-    /// Of patches that exchange light with all of their area. What backs and the background receive
+    /// A system in which all of each patch exchanges light. What backs and the background receive
     /// is not known, so the energy balance lacks it.
     pub fn new(
         exchange: &'a SymmetricMatrix,

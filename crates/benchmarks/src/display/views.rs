@@ -84,17 +84,13 @@ pub(super) fn gathered_view(
     divisions: u32,
     truth: &Truth,
 ) -> Result<Vec<Figure>, Error> {
-    let project = nearly_exact(project, divisions);
-    let camera = first_camera(&project.scene)?;
-    let patches = subdivide(
-        &project.scene,
-        &project.params.discretization,
-        Context::default(),
-    )?;
-    let factors = estimate(&patches, &project.params.form_factors)?;
-    let light = solve(&factors, &project.params.solver)?.light()?;
+    let Project { scene, params, .. } = &nearly_exact(project, divisions);
+    let camera = first_camera(scene)?;
+    let patches = subdivide(scene, &params.discretization, Context::default())?;
+    let factors = estimate(&patches, &params.form_factors)?;
+    let light = solve(&factors, &params.solver)?.light()?;
     let start = Instant::now();
-    let params = &project.params.image;
+    let params = &params.image;
     let pictures = render(&patches, &light, &camera, params, &[Shading::Gathered])?;
     let seconds = start.elapsed().as_secs_f64();
     let error = truth.error(&pictures[0], params)?;
@@ -124,23 +120,19 @@ pub(super) fn exact_view(
     divisions: u32,
     truth: &Truth,
 ) -> Result<(View, Vec<Figure>), Error> {
-    let project = nearly_exact(project, divisions);
-    let (camera, params) = (first_camera(&project.scene)?, &project.params.image);
+    let Project { scene, params, .. } = &nearly_exact(project, divisions);
+    let (camera, image) = (first_camera(scene)?, &params.image);
     let start = Instant::now();
-    let patches = subdivide(
-        &project.scene,
-        &project.params.discretization,
-        Context::default(),
-    )?;
-    let factors = estimate(&patches, &project.params.form_factors)?;
-    let light = solve(&factors, &project.params.solver)?.light()?;
-    let pictures = || render(&patches, &light, &camera, params, &[Shading::Exact]);
+    let patches = subdivide(scene, &params.discretization, Context::default())?;
+    let factors = estimate(&patches, &params.form_factors)?;
+    let light = solve(&factors, &params.solver)?.light()?;
+    let pictures = || render(&patches, &light, &camera, image, &[Shading::Exact]);
     let first = pictures()?;
     let cold = start.elapsed().as_secs_f64();
     let seconds = best_seconds(RUNS, || {
         std::hint::black_box(pictures().is_ok());
     });
-    let error = truth.error(&first[0], params)?;
+    let error = truth.error(&first[0], image)?;
     let most = |most: f64| (divisions == GOOD).then_some(Target::Between(0.0, most));
     let named = |what: &str, value, unit, target| {
         figure(&format!("exact.{divisions}.{what}"), value, unit, target)

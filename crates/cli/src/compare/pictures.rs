@@ -13,7 +13,7 @@ use radiosity::image::{
     Curve, DecodeParams, Decoded, Image, PictureFormat, Transfer, decode_picture, decode_regions,
     encode, encode_pfm, picture_size,
 };
-use radiosity::params::NumberOrWord;
+use radiosity::params::{NumberOrWord, Parameters};
 use radiosity::renderer::ImageParams;
 use radiosity::resources::check_comparison;
 use radiosity::words::grouped;
@@ -40,6 +40,13 @@ pub(super) fn pictures(
         return Err(Error::input(problem));
     }
     let image = project.map(|project| &project.params.image);
+    if let Some(gamma) = args.gamma {
+        let flags = ImageParams {
+            gamma,
+            ..ImageParams::default()
+        };
+        flags.check().map_err(radiosity::Error::from)?;
+    }
     let exposure = args
         .exposure
         .or(image.and_then(|image| image.exposure.number()));

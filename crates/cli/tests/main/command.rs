@@ -109,7 +109,7 @@ fn stages_rerun_alone() {
 #[test]
 fn flags_override_the_scene() {
     let place = Place::new();
-    let report = place.json("render room.toml --no-cache --patches 2x5 --size 7x5");
+    let report = place.json("render room.toml --no-cache --divisions 2x5 --size 7x5");
     assert_eq!(report["patches"], 10 + 1 + 4 + 3);
     let header = fs::read(place.path("out/room-constant.ppm")).unwrap();
     assert!(header.starts_with(b"P6\n7 5\n255\n"));
@@ -122,6 +122,10 @@ fn flags_override_the_scene() {
     );
     let loose = place.json("solve room.toml --no-cache --residual 0.1 --max-sweeps 1");
     assert_eq!(loose["stages"]["solve"]["sweeps"], 1);
+    for name in ["cg", "conjugate-gradients"] {
+        let solved = place.json(&format!("solve room.toml --no-cache --solver {name}"));
+        assert_eq!(solved["stages"]["solve"]["method"], "conjugate-gradients");
+    }
 }
 
 #[test]

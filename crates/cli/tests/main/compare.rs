@@ -133,6 +133,20 @@ fn what_cannot_be_compared_is_said() {
 /// Opening a pipe waits for a writer, and a device does not end.
 #[cfg(unix)]
 #[test]
+fn exponents_are_positive() {
+    let place = Place::new();
+    fs::write(place.path("a.ppm"), "P3 1 1 255 1 2 3\n").unwrap();
+    for gamma in ["-1", "0", "nan", "inf"] {
+        let (code, message) = place.fail(&format!("compare a.ppm a.ppm --gamma {gamma}"));
+        assert_eq!(code, 2, "{message}");
+        assert!(
+            message.contains("--gamma must be a positive number"),
+            "{message}"
+        );
+    }
+}
+
+#[test]
 fn what_is_no_regular_file_is_refused() {
     let place = Place::new();
     place.write("b.csv", "");

@@ -249,6 +249,26 @@ fn what_cannot_be_shown_is_explained() {
         ),
         ("room.toml --top 1e-300", 2, "between 1e-30 and 1e30"),
         ("--gather room.toml", 2, "a scene's name goes before it"),
+        (
+            "room.toml --gather 5000",
+            2,
+            "--gather must be between 1 and 4096",
+        ),
+        (
+            "room.toml --samples 65",
+            2,
+            "--samples must be between 1 and 64",
+        ),
+        (
+            "room.toml --exposure -1",
+            2,
+            "--exposure must be a positive number",
+        ),
+        (
+            "room.toml --max-sweeps 0",
+            2,
+            "--max-sweeps must be at least 1",
+        ),
     ] {
         let (found, message) = place.fail(&format!("display {arguments} --no-cache"));
         assert_eq!(found, code, "{arguments}: {message}");

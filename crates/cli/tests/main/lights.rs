@@ -1,7 +1,7 @@
 //! Lights that are dimmed without solving.
 
 use crate::place::{Place, SCENE};
-use radiosity::{Context, Error, Project, estimate, solve, subdivide};
+use radiosity::{Context, Error, Project, Silent, estimate, solve, subdivide};
 use std::fs;
 
 /// The radiosities of a table, without its names.
@@ -132,10 +132,7 @@ fn light_out_of_range_is_an_error() {
         let is_lamp = |material: &&mut radiosity::scene::Material| material.name == lamp;
         scene.materials.iter_mut().find(is_lamp).unwrap().emission = [1.0, emission, 0.0];
         scene.lights[0].dim = dim;
-        let context = Context {
-            cache: Some(&store),
-            ..Context::default()
-        };
+        let context = Context::new(Some(&store), &Silent);
         let patches = subdivide(&scene, &params.discretization, context).unwrap();
         let factors = estimate(&patches, &params.form_factors).unwrap();
         let solved = solve(&factors, &params.solver);

@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 use radiosity_geometry::{
-    DVec3, Divisions, FaceId, Grid, Mesh, PolygonMesh, Shape, Surface, SurfaceId, count_patches,
-    subdivide,
+    DVec3, Divisions, FaceId, FaceOrder, Grid, Mesh, PolygonMesh, Shape, Surface, SurfaceId,
+    count_patches, subdivide, subdivide_in,
 };
 use radiosity_test_kit::{icosphere, mesh_of, parallelogram, surface};
 
@@ -54,6 +54,41 @@ fn rectangles_are_cut_in_row_order() {
         (mesh.patches[5].face, mesh.patches[5].surface),
         (FaceId(0), SurfaceId(0))
     );
+}
+
+/// With a quad that is not planar, and so two faces.
+#[test]
+fn faces_keep_the_callers_order() {
+    let positions = [
+        [0, 0, 0],
+        [1, 0, 0],
+        [1, 1, 1],
+        [0, 1, 0],
+        [9, 9, 9],
+        [8, 9, 9],
+        [9, 8, 9],
+    ];
+    let position = |p: [i32; 3]| DVec3::from(p.map(f64::from));
+    let mesh = Shape::Mesh(PolygonMesh {
+        positions: positions.map(position).to_vec(),
+        faces: vec![
+            vec![4, 5, 6],
+            vec![0, 1, 2, 3],
+            vec![6, 5, 4],
+            vec![0, 1, 3],
+        ],
+    });
+    let surfaces = [surface(mesh)];
+    let given = subdivide(&surfaces, Divisions::default()).unwrap();
+    let ranges = given.patches_of_surface(SurfaceId(0));
+    assert_eq!(ranges, [0..1, 1..3, 3..4, 4..5]);
+    let curve = subdivide_in(FaceOrder::Curve, &surfaces, Divisions::default()).unwrap();
+    let inputs =
+        |mesh: &Mesh| -> Vec<u32> { mesh.faces.iter().map(|face| face.input_index).collect() };
+    assert_eq!(inputs(&given), [0, 1, 1, 2, 3]);
+    assert_ne!(inputs(&curve), inputs(&given));
+    let ranges = std::panic::catch_unwind(|| curve.patches_of_surface(SurfaceId(0)));
+    assert!(ranges.is_err(), "there is no range for each");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use radiosity_image::{Curve, Exposure, Transfer};
 use radiosity_solver::{Method, Relaxation};
 use std::fmt::Write;
 
-const GOOD: &str = r#"[image]
+pub(crate) const GOOD: &str = r#"[image]
 width = 320
 exposure = "auto"
 gamma = "srgb"
@@ -42,7 +42,7 @@ material = "white"
 triangle = [[0, 0, 2], [1, 0, 2], [0, 1, 2]]
 "#;
 
-fn parse(text: &str) -> Result<Project, String> {
+pub(crate) fn parse(text: &str) -> Result<Project, String> {
     let project = Project::parse("scenes/test.toml".as_ref(), text);
     project.map_err(|error| error.to_string())
 }
@@ -110,9 +110,15 @@ fn old_names_are_read_with_a_note() {
 /// Programs may keep parameters in files of their own.
 #[test]
 fn parameters_are_written_as_they_are_read() {
-    let Project { params, .. } = parse(GOOD).unwrap();
+    let text = GOOD.replace("divisions = [3, 4]", "divisions = \"none\"");
+    let Project { params, .. } = parse(&text).unwrap();
+    assert_eq!(params.discretization.surfaces["floor"], Divisions::Uncut);
     let text = serde_json::to_string(&params).unwrap();
     assert_eq!(serde_json::from_str::<Params>(&text).unwrap(), params);
+    let read = |text| serde_json::from_str::<Params>(text);
+    let one_count = read(r#"{"discretization": {"default": {"divisions": 5}}}"#).unwrap();
+    assert_eq!(one_count.discretization.default, Divisions::uniform(5));
+    assert!(read(r#"{"discretization": {"divisions": 5}}"#).is_err());
 }
 
 /// One mistake per line; the messages are in the snapshot, to be read as a user would.
@@ -133,6 +139,10 @@ fn mistakes_are_explained() {
         ("divisions = [3, 4]", "divisions = 3\nmax_patch_edge = 0.5"),
         ("divisions = 5", "divisions = 5\nmax_patch_edge = 0.5"),
         ("divisions = [3, 4]", "divison = 3"),
+        ("divisions = [3, 4]", "divisions = \"all\""),
+        ("max_patch_edge = 0.25", "divisions = [2, 3]"),
+        ("[materials.white]", "[material.white]"),
+        ("[image]\n", "image = 3\n[images]\n"),
         ("width = 320", "width = 0"),
         ("width = 320", "crease_angle = 200"),
         ("width = 320", "tone = \"film\""),

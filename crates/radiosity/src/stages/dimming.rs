@@ -4,7 +4,8 @@ use super::factors::Factors;
 use super::light::PatchLight;
 use super::solution::Solved;
 use crate::error::Error;
-use radiosity_scene::{Light, Scene, suggestion};
+use radiosity_params::OutOfRange;
+use radiosity_scene::{Light, MOST_DIMMING, Scene};
 use radiosity_solver as solver;
 
 /// The factors on each light of a scene.
@@ -35,11 +36,7 @@ impl Dimming {
         let names = || self.lights.iter().map(|light| light.name.as_str());
         match names().position(|known| known == name) {
             Some(index) => Ok(&mut self.lights[index]),
-            None => Err(Error::NoSuchLight {
-                help: suggestion(name, names())
-                    .unwrap_or_else(|| "nothing in this scene emits".to_owned()),
-                name: name.to_owned(),
-            }),
+            None => Err(Error::not_in_scene("light", name, names())),
         }
     }
 
@@ -52,6 +49,15 @@ impl Dimming {
         let others = self.lights.iter_mut().filter(|light| !is_kept(light));
         others.for_each(|light| light.dim = 0.0);
         Ok(())
+    }
+
+    /// Refuses factors that flags and files could not have.
+    fn check(&self) -> Result<(), OutOfRange> {
+        let is_good = |factor: f64| (0.0..=MOST_DIMMING).contains(&factor);
+        let dims = self.lights.iter().all(|light| is_good(light.dim));
+        OutOfRange::unless(dims, "dim", "between 0 and 1000")?;
+        let mut tints = self.lights.iter().flat_map(|light| light.tint);
+        OutOfRange::unless(tints.all(is_good), "tint", "between 0 and 1000")
     }
 
     /// The factor of each light, per channel.
@@ -70,8 +76,13 @@ impl Solved<'_> {
     ///
     /// # Errors
     ///
-    /// If single precision does not hold the light.
+    /// If a factor is out of its range, or if single precision does not hold the light.
+    ///
+    /// # Panics
+    ///
+    /// If the lights are those of another scene.
     pub fn relight(&self, dimming: &Dimming) -> Result<PatchLight, Error> {
+        dimming.check()?;
         let factors = self.factors;
         let dimming = dimming.factors();
         let sum = |lights: &[Vec<[f32; 3]>]| {

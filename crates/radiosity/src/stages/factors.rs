@@ -15,10 +15,12 @@ use radiosity_form_factors::{self as form_factors, FormFactors, Mode, Params};
 use radiosity_matrix::SymmetricMatrix;
 use radiosity_params::Parameters;
 use radiosity_solver::SolveError;
-use std::sync::OnceLock;
+use std::ops::DerefMut;
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::time::Instant;
 
-/// The form factors of patches, made or read when they are first asked for.
+/// The form factors of patches, made or read when they are asked for, and kept as long as somebody
+/// holds them: their memory is free while pictures are made that do not need them.
 pub struct Factors<'a> {
     pub(super) patches: &'a Patches<'a>,
     pub(super) params: Params,
@@ -26,7 +28,7 @@ pub struct Factors<'a> {
     estimate: Key,
     /// And of those that are used.
     pub(super) key: Key,
-    made: OnceLock<FormFactorsMade>,
+    made: Mutex<Weak<FormFactorsMade>>,
 }
 
 /// Form factors and where they came from.
@@ -39,7 +41,7 @@ pub struct FormFactorsMade {
     pub origin: Origin,
 }
 
-/// The form factors of patches. They are made when they are first asked for.
+/// The form factors of patches. They are made when they are asked for ([`Factors::made`]).
 pub fn estimate<'a>(patches: &'a Patches<'a>, params: &Params) -> Result<Factors<'a>, Error> {
     params.check()?;
     for note in covers::notes(patches.scene, &patches.mesh, params.mode) {
@@ -56,24 +58,26 @@ pub fn estimate<'a>(patches: &'a Patches<'a>, params: &Params) -> Result<Factors
         estimate,
         patches,
         params: *params,
-        made: OnceLock::new(),
+        made: Mutex::default(),
     })
 }
 
 impl<'a> Factors<'a> {
     /// The form factors, from the cache where possible.
-    pub fn made(&self) -> Result<&FormFactorsMade, Error> {
+    ///
+    /// Whoever holds them has them made or read only once.
+    pub fn made(&self) -> Result<Arc<FormFactorsMade>, Error> {
         self.made_from(Sources::Cached)
     }
 
     /// The form factors, estimated even if they are cached.
-    pub fn made_anew(&self) -> Result<&FormFactorsMade, Error> {
+    pub fn made_anew(&self) -> Result<Arc<FormFactorsMade>, Error> {
+        *self.held() = Weak::new();
         self.made_from(Sources::Computed)
     }
 
-    /// Whether somebody has asked for them.
-    pub fn are_made(&self) -> bool {
-        self.made.get().is_some()
+    fn held(&self) -> impl DerefMut<Target = Weak<FormFactorsMade>> {
+        self.made.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The patches.
@@ -92,8 +96,9 @@ impl<'a> Factors<'a> {
         }
     }
 
-    fn made_from(&self, sources: Sources) -> Result<&FormFactorsMade, Error> {
-        if let Some(made) = self.made.get() {
+    fn made_from(&self, sources: Sources) -> Result<Arc<FormFactorsMade>, Error> {
+        let mut held = self.held();
+        if let Some(made) = held.upgrade() {
             return Ok(made);
         }
         let made = if self.params.closure {
@@ -106,7 +111,9 @@ impl<'a> Factors<'a> {
         } else {
             self.estimated(sources)
         }?;
-        Ok(self.made.get_or_init(|| made))
+        let made = Arc::new(made);
+        *held = Arc::downgrade(&made);
+        Ok(made)
     }
 
     /// The form factors as they are estimated.
@@ -183,7 +190,7 @@ impl<'a> Factors<'a> {
         })
     }
 
-    /// What to say of form factors that nobody has asked for.
+    /// The origin that is reported if nobody has asked for the form factors.
     pub(super) fn untouched(&self) -> Origin {
         let id = self.id();
         let is_there = |store: &&Store| store.read::<FactorFacts>(&id).is_ok();

@@ -6,6 +6,7 @@ use radiosity_cache::{Id, Key};
 use radiosity_geometry::{Discretization, FaceOrder, Mesh, subdivide_in};
 use radiosity_params::Parameters;
 use radiosity_scene::{Material, Scene};
+use std::collections::BTreeSet;
 
 /// A scene cut into patches, with what they emit and reflect.
 pub struct Patches<'a> {
@@ -27,6 +28,11 @@ pub fn subdivide<'a>(
 ) -> Result<Patches<'a>, Error> {
     params.check()?;
     check_lights(scene)?;
+    let known: BTreeSet<&str> = scene.shapes().map(|shape| shape.name).collect();
+    let mut rules = params.surfaces.keys();
+    if let Some(name) = rules.find(|name| !known.contains(name.as_str())) {
+        return Err(Error::not_in_scene("surface", name, known.iter().copied()));
+    }
     let surfaces = params.of_shapes(scene.shapes());
     let mesh = subdivide_in(FaceOrder::Curve, &surfaces, params.default);
     let mesh = mesh.map_err(|error| Error::of_mesh(scene, params, &error))?;
@@ -76,7 +82,7 @@ impl<'a> Patches<'a> {
     }
 }
 
-/// Scenes that were read have a light for whatever emits; others must have one too.
+/// Refuses a material that emits and belongs to no light.
 fn check_lights(scene: &Scene) -> Result<(), Error> {
     let is_lost = |material: &&Material| {
         let has_light = material

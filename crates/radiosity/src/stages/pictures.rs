@@ -16,7 +16,7 @@ use radiosity_renderer::{Fields, ImageParams, Renderer, Shading};
 use std::io;
 use std::path::Path;
 
-/// What of the light is shown, or of what it was made from.
+/// What a picture shows: a part of the light, or something about the form factors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// All that leaves patches, W/m^2.
@@ -59,6 +59,10 @@ pub struct Shown {
 
 /// Pictures of what patches shine with as a camera sees it: linear radiance in W/(m^2 sr), by each
 /// of some shadings, in that order.
+///
+/// # Panics
+///
+/// If a shading is asked for twice.
 pub fn render(
     patches: &Patches<'_>,
     light: &PatchLight,
@@ -66,24 +70,30 @@ pub fn render(
     params: &ImageParams,
     shadings: &[Shading],
 ) -> Result<Vec<Image>, Error> {
+    params.check()?;
     let shown = Shown::light(patches, light);
     let renderer = shown.renderer(&patches.mesh, params, shadings);
     render_by(&renderer, camera, params, patches.context)
 }
 
-/// Writes a picture as a camera's screen shows it.
+/// Writes a picture as PNG, with the exposure, tone and gamma of the parameters.
 pub fn save_png(path: &Path, image: &Image, params: &ImageParams) -> io::Result<()> {
     let levels = params.tone_map().apply(image);
     let bytes = encode(&levels, PictureFormat::Png(params.gamma), &[]);
     replace_file_by(path, |file| file.write_all(&bytes))
 }
 
-/// A quantity on all patches. What goes back to form factors asks for them.
+/// A quantity on all patches. Irradiance, errors and factors make the form factors, if nobody holds
+/// them ([`Factors::made`]).
 pub fn show(factors: &Factors<'_>, light: &PatchLight, quantity: Quantity) -> Result<Shown, Error> {
     let all = Shown::light(factors.patches, light);
     let patches = all.value.len();
     let nothing = || vec![[0.0; 3]; patches];
-    let made = || Ok::<_, Error>(&factors.made()?.form_factors);
+    let made = match quantity.needs_factors() {
+        true => Some(factors.made()?),
+        false => None,
+    };
+    let made = || &made.as_ref().expect("the quantity needs them").form_factors;
     Ok(match quantity {
         Quantity::Radiosity => all,
         Quantity::Direct => Shown {
@@ -101,8 +111,8 @@ pub fn show(factors: &Factors<'_>, light: &PatchLight, quantity: Quantity) -> Re
         Quantity::Irradiance => {
             let of_elements = light.radiosity_of_elements(factors.params.mode);
             Shown {
-                value: irradiance(made()?, &of_elements, &all.visible),
-                direct: irradiance(made()?, &all.sources, &all.visible),
+                value: irradiance(made(), &of_elements, &all.visible),
+                direct: irradiance(made(), &all.sources, &all.visible),
                 emission: nothing(),
                 direct_gain: vec![[1.0; 3]; patches],
                 gathered_gain: vec![[1.0; 3]; patches],
@@ -110,11 +120,11 @@ pub fn show(factors: &Factors<'_>, light: &PatchLight, quantity: Quantity) -> Re
             }
         }
         Quantity::Error => {
-            let errors = made()?.rows.iter().map(|row| row.error);
+            let errors = made().rows.iter().map(|row| row.error);
             let errors: Option<Vec<f64>> = errors.collect();
             table(errors.ok_or(Error::NoErrors)?)
         }
-        Quantity::FactorsFrom(patch) => table(made()?.row(patch)),
+        Quantity::FactorsFrom(patch) => table(made().row(patch)),
     })
 }
 
@@ -136,8 +146,9 @@ pub fn render_by(
     while let Some(rows) = rendering.advance() {
         observer.advance(u64::from(rows));
     }
+    let pictures = rendering.finish();
     observer.end();
-    Ok(rendering.finish())
+    Ok(pictures)
 }
 
 impl Shown {

@@ -50,6 +50,7 @@ fn solve_from<'a>(
     let context = factors.patches.context;
     let id = factors.solution_id(params);
     let mut start = Instant::now();
+    let mut made_from = None;
     let recipe = Recipe {
         read: |store: &Store| factors.stored_solution(store, &id),
         make: |store: Option<&Store>| {
@@ -68,16 +69,14 @@ fn solve_from<'a>(
                 usable(written, context.observer, &id).is_some()
             };
             let is_cached = store.is_some_and(write);
+            made_from = Some(made.origin.clone());
             Ok(((solution, facts.rows, facts.visible), is_cached))
         },
     };
     let ((solution, rows, visible), mut origin) = obtain(context, &id, sources, recipe)?;
     origin.bytes = 24 * (solution.lights.len() * factors.patches.mesh.patches.len()) as u64;
     origin.seconds = start.elapsed().as_secs_f64();
-    let form_factors = match factors.are_made() {
-        true => factors.made()?.origin.clone(),
-        false => factors.untouched(),
-    };
+    let form_factors = made_from.unwrap_or_else(|| factors.untouched());
     Ok(Solved {
         solution,
         key: id.key,
@@ -90,7 +89,7 @@ fn solve_from<'a>(
 }
 
 impl<'a> Solved<'a> {
-    /// The form factors that it was made from, if they were needed.
+    /// The form factors. They are made when they are first asked for.
     pub fn factors(&self) -> &'a Factors<'a> {
         self.factors
     }
@@ -100,16 +99,17 @@ impl<'a> Solved<'a> {
 const SOLVER_STEPS: u64 = 100;
 
 impl<'a> Factors<'a> {
-    /// Whether the cache has a solution that is made from these, so that nobody need make them.
+    /// Whether the cache has a solution of these, which then are not needed.
     pub fn have_solution(&self, params: &Params) -> bool {
         let id = self.solution_id(params);
         let cache = self.patches.context.cache;
-        cache.is_some_and(|store| self.stored_solution(store, &id).is_ok())
+        cache.is_some_and(|store| store.read::<SolutionFacts>(&id).is_ok())
     }
 
     /// Solves without the cache of solutions.
     pub fn solution(&self, params: &Params) -> Result<Solution, Error> {
-        let made = &self.made()?.form_factors;
+        let made = self.made()?;
+        let made = &made.form_factors;
         let share =
             |share: fn(&RowFacts) -> f64| -> Vec<f64> { made.rows.iter().map(share).collect() };
         let patches = self.patches;
@@ -186,7 +186,7 @@ impl<'a> Factors<'a> {
             self.key.bytes(),
             &self.patches.lights,
             &self.patches.reflectance,
-            params,
+            params.used(),
         );
         self.patches
             .id(SOLUTION, Key::of(SOLUTION, solver::VERSION, &inputs))

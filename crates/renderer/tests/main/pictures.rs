@@ -60,6 +60,16 @@ fn whatever_lies_before_the_near_distance_is_not_seen() {
 }
 
 #[test]
+fn no_shadings_make_no_pictures() {
+    let mesh = cut(two_triangles(), 1);
+    let light = Light::of_radiosity(&[[PI; 3]; 2]);
+    let params = ImageParams::default();
+    let renderer = Renderer::new(&mesh, &light.fields(), &params, &[]);
+    let camera = Camera::new(DVec3::Z, DVec3::NEG_Z, DVec3::Y, 30.0, 0.0).unwrap();
+    assert!(renderer.render(&camera, &params).is_empty());
+}
+
+#[test]
 fn thread_counts_leave_no_trace() {
     let mesh = cut(two_triangles(), 4);
     let radiosity: Vec<[f32; 3]> = (0..32).map(|k| [k as f32, 1.0, 0.0]).collect();

@@ -3,7 +3,7 @@
 use crate::Scene;
 use crate::tests::Parsed;
 use proptest::prelude::*;
-use radiosity_geometry::{Discretization, Divisions, Mesh, subdivide};
+use radiosity_geometry::{Discretization, Mesh, subdivide};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -36,13 +36,7 @@ fn parse(text: &str) -> Result<Parsed, String> {
 }
 
 fn mesh(scene: &Scene) -> Mesh {
-    let mut params = Discretization::uniform(1);
-    let obstructions = scene
-        .surfaces
-        .iter()
-        .filter(|surface| surface.is_obstruction);
-    let uncut = obstructions.map(|surface| (surface.name.clone(), Divisions::Uncut));
-    params.surfaces.extend(uncut);
+    let params = Discretization::uniform(1);
     subdivide(&params.of_shapes(scene.shapes()), params.default).unwrap()
 }
 
