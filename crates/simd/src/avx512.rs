@@ -10,7 +10,7 @@ use crate::{Float, InstructionSet, Kernel, LANES, Name, Simd, WIDE, WideFloat};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-entrance!(Avx512, "avx512f,avx512vl,avx2");
+entrance!(Avx512, "avx512f,avx512vl,avx512dq,avx512bw,avx2");
 
 registers! {
     F32: f32, [__m256; 1],

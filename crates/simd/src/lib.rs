@@ -151,8 +151,12 @@ impl InstructionSet {
         #[cfg(target_arch = "x86_64")]
         {
             let avx2 = is_x86_feature_detected!("avx2");
-            let avx512f = is_x86_feature_detected!("avx512f");
-            if avx2 && avx512f && is_x86_feature_detected!("avx512vl") {
+            // Every processor that has the last two has the first two.
+            let avx512 = is_x86_feature_detected!("avx512f")
+                && is_x86_feature_detected!("avx512vl")
+                && is_x86_feature_detected!("avx512dq")
+                && is_x86_feature_detected!("avx512bw");
+            if avx2 && avx512 {
                 sets.push(InstructionSet(Name::Avx512));
             }
             if avx2 {
