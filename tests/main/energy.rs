@@ -105,7 +105,7 @@ fn reported(mesh: &Mesh, light: &PatchLight) -> Shares {
 /// backs and background, whose errors are independent, and the most that the errors of factors add
 /// up to.
 fn errors_of_rows(chain: Chain, light: &PatchLight) -> [f64; 2] {
-    let made = chain.made();
+    let made = chain.made;
     let rows = made.form_factors.rows.iter();
     let means = light.mean_radiosity();
     let (mut of_rays, mut of_factors) = (0.0, 0.0);
@@ -144,6 +144,6 @@ fn power_arrives_where_rays_do() {
         let imbalance = light.energy.missing()[GREEN].abs() / emitted;
         println!("{name}: {imbalance:.1e} of the emission is missing, {most:.1e} may be");
         assert!(imbalance <= most, "{name}");
-        assert_eq!(chain.made().rows.excessive, 0, "{name}");
+        assert_eq!(chain.made.rows.excessive, 0, "{name}");
     }
 }

@@ -54,7 +54,7 @@ fn rows_account_for_everything() {
     project.params.form_factors.mode = Mode::Accurate;
     project.params.form_factors.tolerance = 1e-3;
     let chain = Chain::of(&project);
-    let made = chain.made();
+    let made = chain.made;
     let rows = &made.form_factors.rows;
     let (mut within, mut sum, mut variance) = (0, 0.0, 0.0);
     for row in rows {
@@ -81,7 +81,7 @@ fn rows_account_for_everything() {
 /// The mean and the largest |row sum - 1| over patches of `cornell-closed` that see no backs.
 fn row_sum_errors(project: &Project) -> (f64, f64) {
     let chain = Chain::of(project);
-    let made = chain.made();
+    let made = chain.made;
     let rows = chain
         .patches
         .mesh
@@ -116,7 +116,7 @@ fn exchange_is_reciprocal() {
     let mut reversed = project.clone();
     reversed.scene.surfaces.reverse();
     let chains = [&project, &reversed].map(Chain::of);
-    let made = chains.map(Chain::made);
+    let made = chains.map(|chain| chain.made);
     let [a, b] = [&made[0], &made[1]].map(|made| &made.form_factors);
     let [here, there] = chains.map(|chain| &chain.patches.mesh);
     let last_face = here.faces.len() - 1;
@@ -143,7 +143,7 @@ fn exchange_is_reciprocal() {
 fn the_furnace_is_uniform_up_to_its_row_sums() {
     let project = shipped("furnace");
     let chain = Chain::of(&project);
-    let made = chain.made();
+    let made = chain.made;
     let sums = || made.form_factors.rows.iter().map(|row| row.fronts);
     let (low, high) = (sums().fold(2.0, f64::min), sums().fold(0.0, f64::max));
     let material = &project.scene.materials[0];
@@ -208,7 +208,7 @@ fn impossible_reflectances_name_their_surfaces() {
         panic!("rows over 1 at reflectance 1 must diverge");
     };
     assert!(matches!(error, Error::Unsolvable { .. }), "{error}");
-    let worst = chain.made().rows.largest.1;
+    let worst = chain.made.rows.largest.1;
     let worst = chain.patches.surface_name(worst as usize);
     let text = error.to_string();
     assert!(

@@ -37,6 +37,8 @@ pub struct Chain {
     pub patches: &'static Patches<'static>,
     /// Stage 2.
     pub factors: &'static Factors<'static>,
+    /// The form factors, which stage 2 keeps only while somebody holds them.
+    pub made: &'static FormFactorsMade,
 }
 
 impl Chain {
@@ -47,18 +49,14 @@ impl Chain {
         let patches = subdivide(&project.scene, &params.discretization, Context::default());
         let patches: &Patches<'_> = leak(patches.unwrap_or_else(|error| panic!("{error}")));
         let factors = estimate(patches, &params.form_factors);
+        let factors: &Factors<'_> = leak(factors.unwrap_or_else(|error| panic!("{error}")));
+        let made: &Arc<_> = leak(factors.made().unwrap_or_else(|error| panic!("{error}")));
         Chain {
             project,
             patches,
-            factors: leak(factors.unwrap_or_else(|error| panic!("{error}"))),
+            factors,
+            made,
         }
-    }
-
-    /// The form factors.
-    pub fn made(self) -> Arc<FormFactorsMade> {
-        self.factors
-            .made()
-            .unwrap_or_else(|error| panic!("{error}"))
     }
 
     /// Stage 3.

@@ -18,7 +18,6 @@ const LONG: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
     "/../../scenes/cornell.toml --patches 14 --mode accurate --tolerance 2e-4 --cache c"
 );
-const KILLS: u32 = 24;
 /// Runs that share the processors would take longer to their checkpoints.
 static ALONE: Mutex<()> = Mutex::new(());
 
@@ -76,11 +75,21 @@ fn kill_after_checkpoint(place: &Place) {
 
 #[test]
 fn killed_runs_go_on_where_they_were() {
+    killed_runs_go_on(6);
+}
+
+#[test]
+#[ignore = "slow: twenty seconds"]
+fn runs_killed_at_many_moments_go_on_where_they_were() {
+    killed_runs_go_on(24);
+}
+
+fn killed_runs_go_on(most: u32) {
     let _alone = ALONE.lock();
     let expected = undisturbed();
     let place = Place::new();
     let mut kills = 0;
-    while kills < KILLS {
+    while kills < most {
         let last = checkpoint(&place);
         let mut run = start(&place);
         // Every other run has made a checkpoint; the golden ratio spreads moments evenly.
@@ -224,6 +233,7 @@ fn what_is_not_gone_on_with_is_named() {
 }
 
 #[test]
+#[ignore = "slow: five seconds"]
 fn recomputing_begins_anew() {
     let _alone = ALONE.lock();
     let place = Place::new();
