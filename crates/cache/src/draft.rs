@@ -97,8 +97,8 @@ impl Draft {
         store.remove_leftovers(&store.path(id));
     }
 
-    /// Goes on with a draft that was interrupted, from its last checkpoint; gives the state that was
-    /// saved with it. `None` if there is no draft.
+    /// Goes on with a draft that was interrupted, from its last checkpoint; gives the state that
+    /// was saved with it. `None` if there is no draft.
     pub fn resume<S: DeserializeOwned>(
         store: &Store,
         id: &Id<'_>,
@@ -152,8 +152,8 @@ impl Draft {
         values.map_err(CacheError::new("read", &partial))
     }
 
-    /// Turns the draft into the artifact; says whether it is there, which it is not if values had to
-    /// be held in memory.
+    /// Turns the draft into the artifact; says whether it is there, which it is not if values had
+    /// to be held in memory.
     ///
     /// # Panics
     ///

@@ -57,8 +57,8 @@ fn check_lines(project: &Project, needs: &Needs, faces: Option<&Mesh>) -> Vec<St
     lines
 }
 
-/// What other commands say of surfaces that lie on others, of scenes without light, and of closed ones that
-/// are not: known from the faces alone, however they are cut.
+/// What other commands say of surfaces that lie on others, of scenes without light, and of closed
+/// ones that are not: known from the faces alone, however they are cut.
 fn notes(project: &Project, faces: &Mesh) -> Vec<String> {
     let (scene, mode) = (&project.scene, project.params.form_factors.mode);
     let mut notes = covers::notes(scene, faces, mode);
@@ -88,8 +88,8 @@ fn lights_line(scene: &Scene) -> Option<String> {
     (!lights.is_empty()).then(|| labelled("lights", &lights.join(", ")))
 }
 
-/// What computing the scene would take, by its numbers of patches: without faces that only stand in the way,
-/// but nothing is made for it.
+/// What computing the scene would take, by its numbers of patches: without faces that only stand in
+/// the way, but nothing is made for it.
 fn counted_needs(project: &Project) -> Result<Needs, Error> {
     let params = &project.params.discretization;
     let count = |params: &Discretization| {

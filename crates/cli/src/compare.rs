@@ -2,7 +2,7 @@
 
 mod pictures;
 
-use super::args::CompareCommand;
+use super::compare_args::CompareCommand;
 use super::input::read;
 use super::printable;
 use super::run::check_folder_of;
@@ -141,7 +141,8 @@ fn print(Compared { named, left_out }: &Compared) -> Result<(), Error> {
             noise_percent: _,
         } = errors;
         say(&format!(
-            "{name:<width$} {rmse:>9.3} {bias:>+9.3} {:>9.3} {:>10.3} {:>10.3} {:>10.3} {values:>9}",
+            "{name:<width$} {rmse:>9.3} {bias:>+9.3} {:>9.3} {:>10.3} {:>10.3} {:>10.3} \
+             {values:>9}",
             p.p50, p.p90, p.p99, p.max
         ))?;
     }
@@ -151,7 +152,8 @@ fn print(Compared { named, left_out }: &Compared) -> Result<(), Error> {
     {
         let without = all.rmse_percent_without_noise();
         say(&format!(
-            "of all, the reference's own noise is {noise:.3} %: without it, the RMSE is {without:.3} %"
+            "of all, the reference's own noise is {noise:.3} %: without it, the RMSE is \
+             {without:.3} %"
         ))?;
     }
     if left_out.is_empty() {

@@ -37,13 +37,23 @@ pub struct ImageArgs {
     pub filter: Option<PixelFilter>,
     /// Factor from radiance to brightness, or auto: 98 % of the lit pixels of each picture are then
     /// less bright than a screen
-    #[arg(long, value_name = "X|auto", value_parser = number_or_word::<Exposure>, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "X|auto",
+        value_parser = number_or_word::<Exposure>,
+        allow_negative_numbers = true,
+    )]
     pub exposure: Option<Exposure>,
     /// What becomes of what is brighter than a screen
     #[arg(long, value_parser = choice::<Curve>(&TONES))]
     pub tone: Option<Curve>,
     /// Exponent of the screen, or srgb
-    #[arg(long, value_name = "X|srgb", value_parser = number_or_word::<Transfer>, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "X|srgb",
+        value_parser = number_or_word::<Transfer>,
+        allow_negative_numbers = true,
+    )]
     pub gamma: Option<Transfer>,
     /// Dither levels: no bands in smooth gradients
     #[arg(long)]
@@ -77,7 +87,13 @@ pub struct DisplayArgs {
     pub direct: Option<DirectArg>,
     /// Look around from each sample for the light that is reflected more often, in N directions
     /// [default: the scene's, or 4]; light straight from emitters is exact then
-    #[arg(long, value_name = "N", num_args = 0..=1, value_parser = parse_directions, conflicts_with = "direct")]
+    #[arg(
+        long,
+        value_name = "N",
+        num_args = 0..=1,
+        value_parser = parse_directions,
+        conflicts_with = "direct",
+    )]
     pub gather: Option<Option<u32>>,
     /// The pictures to make, instead [default: constant,smooth]
     #[arg(
@@ -96,7 +112,13 @@ pub struct DisplayArgs {
     #[arg(help_heading = "Results", long, short, value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// File formats of the pictures
-    #[arg(help_heading = "Results", long, value_enum, value_delimiter = ',', default_values = ["ppm", "png"])]
+    #[arg(
+        help_heading = "Results",
+        long,
+        value_enum,
+        value_delimiter = ',',
+        default_values = ["ppm", "png"],
+    )]
     pub format: Vec<FormatArg>,
     /// Show no small picture in the terminal
     #[arg(help_heading = "Run", long)]

@@ -13,8 +13,8 @@ pub(super) fn read(path: &Path) -> Result<Vec<u8>, Error> {
         .map_err(|error| Error::input(format!("cannot read {}: {error}", path.display())))
 }
 
-/// Refuses what is there and no file, before it is opened: opening a pipe waits for its writer, and a
-/// device may have no end.
+/// Refuses what is there and no file, before it is opened: opening a pipe waits for its writer, and
+/// a device may have no end.
 pub(super) fn check_regular(path: &Path) -> Result<(), Error> {
     match std::fs::metadata(path) {
         Ok(metadata) if !metadata.is_file() => Err(Error::with_help(

@@ -143,10 +143,10 @@ fn solution_line(found: &SolutionInspection) -> String {
     let end = if found.converged {
         ""
     } else {
-        ", which is not the tolerance"
+        ", more than was asked for"
     };
     let text = format!(
-        "{}, {} to residual {:.1e}{end}",
+        "{}, {}: residual {:.1e}{end}",
         counted(found.patches, PATCHES),
         counted(found.sweeps, ["sweep", "sweeps"]),
         found.residual,

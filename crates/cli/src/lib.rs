@@ -1,5 +1,5 @@
-//! The command `radiosity`, which `cargo xtask` shares: arguments, progress, reports and exit codes around
-//! the engine.
+//! The command `radiosity`, which `cargo xtask` shares: arguments, progress, reports and exit codes
+//! around the engine.
 
 mod args;
 mod cache_args;
@@ -7,6 +7,7 @@ mod cache_folder;
 mod check;
 mod choices;
 mod compare;
+mod compare_args;
 mod display;
 mod error;
 mod estimate_args;
@@ -23,6 +24,7 @@ mod plot;
 mod print;
 mod printable;
 mod reference;
+mod reference_args;
 mod report;
 mod run;
 mod save;
@@ -38,13 +40,14 @@ mod usage;
 mod view_args;
 
 pub use args::{
-    CheckArgs, Command, CompareCommand, DisplayCommand, FormFactorsCommand, InspectCommand,
-    ReferenceCommand, SolveCommand,
+    CheckArgs, Command, DisplayCommand, FormFactorsCommand, InspectCommand, SolveCommand,
 };
 pub use cache_args::{CacheAction, CacheCommand, CleanArgs};
+pub use compare_args::CompareCommand;
 pub use estimate_args::{CacheArgs, EstimateArgs};
 pub use image_args::{DisplayArgs, ImageArgs};
 pub use light_args::LightArgs;
+pub use reference_args::ReferenceCommand;
 pub use run::run;
 pub use scene_args::{OutsideArgs, SceneArgs};
 pub use show_args::ShowArgs;

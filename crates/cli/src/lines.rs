@@ -16,11 +16,14 @@ pub(crate) fn scene_line(scene: &Scene, patches: usize) -> String {
     )
 }
 
-/// What rows sum to.
+/// Where the light of patches goes.
 pub(crate) fn row_line(rows: &RowSummary) -> String {
     format!(
-        "sum to {:.4} on average; backs are {:.4} of what patches see, nothing {:.4}",
-        rows.mean, rows.backs, rows.background
+        "on average {:.2} % of a patch's light reaches front faces, {:.2} % back faces, {:.2} % \
+         leaves the scene",
+        100.0 * rows.mean,
+        100.0 * rows.backs,
+        100.0 * rows.background
     )
 }
 
@@ -36,7 +39,8 @@ pub(crate) fn closed_line(rows: &RowSummary) -> String {
 pub(crate) fn closure_line(rows: &RowSummary) -> Option<String> {
     let closure = rows.closure?;
     Some(format!(
-        "rows that see fronts alone were scaled to sum to 1: factors changed by {:.1e} of themselves at most",
+        "rows that see fronts alone were scaled to sum to 1: factors changed by {:.1e} of \
+         themselves at most",
         closure.largest_change
     ))
 }
@@ -54,8 +58,8 @@ pub(crate) fn missed_line(rows: &RowSummary) -> Option<String> {
     let (count, worst) = rows.missed;
     (count > 0).then(|| {
         format!(
-            "the tolerance is missed by up to {worst:.1e} in {}: pairs there have used up all their \
-             samples, and a smaller tolerance does not help",
+            "the tolerance is missed by up to {worst:.1e} in {}: pairs there have used up all \
+             their samples, and a smaller tolerance does not help",
             counted(count as usize, ROWS)
         )
     })
@@ -68,8 +72,8 @@ const MOST_UNBALANCED: usize = 3;
 pub(crate) fn unbalanced_lines(rows: &RowSummary, name: impl Fn(u32) -> String) -> Vec<String> {
     let line = |of: &Unbalanced| {
         format!(
-            "warning: {} of `{}` do not add up: what its patches see sums to {:.4} instead of 1 at worst, \
-             more than the errors explain; do not trust these form factors",
+            "warning: {} of `{}` do not add up: what its patches see sums to {:.4} instead of 1 \
+             at worst, more than the errors explain; do not trust these form factors",
             counted(of.rows as usize, ROWS),
             name(of.surface),
             of.worst,
@@ -97,7 +101,8 @@ pub(crate) fn class_line(Classes { clear, partial }: &Classes, patches: usize) -
     };
     let percent = |pairs_of: u64| 100.0 * pairs_of as f64 / pairs;
     format!(
-        "{:.1} % of the pairs are clear (error {}), {:.1} % partly hidden ({}), the others see nothing of each other",
+        "{:.1} % of the pairs are clear (error {}), {:.1} % partly hidden ({}), the others see \
+         nothing of each other",
         percent(clear.pairs),
         error(clear.error),
         percent(partial.pairs),

@@ -51,8 +51,8 @@ impl Live {
     }
 }
 
-/// A picture of an even number of rows, as characters with escape sequences (ECMA-48, and ISO 8613-6
-/// for colours).
+/// A picture of an even number of rows, as characters with escape sequences (ECMA-48, and
+/// ISO 8613-6 for colours).
 fn half_blocks(picture: &Rgb8Image, has_true_colors: bool) -> String {
     let row_length = 3 * picture.width as usize;
     let mut text = String::new();

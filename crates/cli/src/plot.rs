@@ -5,8 +5,8 @@ use plotters::prelude::*;
 use radiosity::solver::Params;
 use radiosity::stages::Factors;
 
-/// The colours of the methods: of equal lightness, and apart for those who do not tell red from green
-/// (Okabe & Ito 2008).
+/// The colours of the methods: of equal lightness, and apart for those who do not tell red from
+/// green (Okabe & Ito 2008).
 const COLORS: [RGBColor; 3] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),

@@ -3,8 +3,8 @@
 
 use std::fmt::Write;
 
-/// No line has more characters, so that a long name does not flood the terminal. Longer ones lose their
-/// middle; paths are no longer than 4096 bytes.
+/// No line has more characters, so that a long name does not flood the terminal. Longer ones lose
+/// their middle; paths are no longer than 4096 bytes.
 const LONGEST_LINE: usize = 5000;
 /// The same of a name in a table.
 const LONGEST_NAME: usize = 48;
@@ -45,8 +45,8 @@ fn escaped(text: &str, code: impl Fn(u32) -> String) -> String {
     safe
 }
 
-/// Control characters, line breaks among them, and those that change the direction of writing (Unicode
-/// Standard Annex 9).
+/// Control characters, line breaks among them, and those that change the direction of writing
+/// (Unicode Standard Annex 9).
 fn is_command(character: char) -> bool {
     character.is_control()
         || matches!(character,

@@ -1,6 +1,6 @@
 //! `reference`: the oracle's pictures and tables.
 
-use super::args::ReferenceCommand;
+use super::reference_args::ReferenceCommand;
 use super::run::{make_folder, with_threads, write};
 use super::site::Site;
 use super::terminal::{Terminal, say_json};
@@ -137,7 +137,8 @@ fn picture(
     let seconds = start.elapsed().as_secs_f64();
     let rate = tracer.vertices() as f64 / seconds / rayon::current_num_threads() as f64;
     terminal.line(&format!(
-        "{:<14}{} walks per pixel, estimated error {percent:.2} %, {:.2} M vertices/s/thread{seconds:>10.2} s",
+        "{:<14}{} walks per pixel, estimated error {percent:.2} %, \
+         {:.2} M vertices/s/thread{seconds:>10.2} s",
         "reference",
         tracer.samples(),
         rate / 1e6,

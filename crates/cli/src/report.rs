@@ -90,8 +90,7 @@ impl<'a> Report<'a> {
         let patches = factors.patches();
         let (scene, mesh) = (patches.scene(), &patches.mesh);
         self.stage_line("form factors", origin);
-        self.terminal
-            .line(&indented(&format!("rows {}", row_line(rows))));
+        self.terminal.line(&indented(&row_line(rows)));
         let errors = error_line(rows).into_iter().chain(missed_line(rows));
         for line in errors.chain(closure_line(rows)) {
             self.terminal.line(&indented(&line));
@@ -114,7 +113,8 @@ impl<'a> Report<'a> {
             let count = mesh.patches.len() as u64;
             let (sum, patch) = rows.largest;
             self.terminal.line(&indented(&format!(
-                "warning: {} of {} rows sum to more than 1.001, the worst to {sum:.3} (in `{}`): {weakness}",
+                "warning: {} of {} rows sum to more than 1.001, the worst to {sum:.3} (in `{}`): \
+                 {weakness}",
                 grouped(rows.excessive),
                 grouped(count),
                 patches.surface_name(patch as usize),

@@ -20,7 +20,13 @@ pub struct SceneArgs {
     pub outside: OutsideArgs,
     /// Patches along each edge of a surface, as N or AxB, instead of the scene's default;
     /// surfaces with divisions of their own keep them
-    #[arg(long, alias = "patches", value_name = "N", value_parser = parse_counts, conflicts_with = "max_patch_edge")]
+    #[arg(
+        long,
+        alias = "patches",
+        value_name = "N",
+        value_parser = parse_counts,
+        conflicts_with = "max_patch_edge",
+    )]
     pub divisions: Option<(u32, u32)>,
     /// Longest edge of a patch, in scene units, instead of the scene's default
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]

@@ -12,12 +12,12 @@ pub struct ShowArgs {
     /// light]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "WHAT,..")]
     pub show: Vec<ShowArg>,
-    /// Show the form factors from one patch to all others: a surface, and the patch's two numbers in
-    /// exported tables
+    /// Show the form factors from one patch to all others: a surface, and the patch's two numbers
+    /// in exported tables
     #[arg(long, value_name = "SURFACE:A,B", value_parser = parse_patch)]
     pub factors_of: Option<PatchName>,
-    /// The number that has the brightest false colour [default: a round one that 2 % of what the first
-    /// picture shows exceed]
+    /// The number that has the brightest false colour [default: a round one that 2 % of what the
+    /// first picture shows exceed]
     #[arg(long, value_name = "X", value_parser = parse_top, allow_negative_numbers = true)]
     pub top: Option<f64>,
     /// False colours over three decades, not from 0

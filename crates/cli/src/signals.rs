@@ -34,8 +34,8 @@ mod on_unix {
         let _ = emulate_default_handler(signal);
     }
 
-    /// Whether whoever started the process wants it to outlive the signal, as shells do with what runs
-    /// in the background; known on Linux.
+    /// Whether whoever started the process wants it to outlive the signal, as shells do with what
+    /// runs in the background; known on Linux.
     fn is_ignored(signal: i32) -> bool {
         let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
         let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

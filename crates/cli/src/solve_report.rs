@@ -81,7 +81,7 @@ impl EnergyReport {
 /// The same for people.
 pub(crate) fn solution_lines(solved: &Solved<'_>, energy: &Energy) -> Vec<String> {
     let report = &solved.solution.report;
-    let mut lines = vec![course_line(report)];
+    let mut lines = vec![convergence_line(report)];
     lines.extend(energy_line(energy));
     if !report.converged {
         lines.push(warning(report));
@@ -90,23 +90,22 @@ pub(crate) fn solution_lines(solved: &Solved<'_>, energy: &Energy) -> Vec<String
 }
 
 /// How it was reached.
-fn course_line(report: &Convergence) -> String {
+fn convergence_line(report: &Convergence) -> String {
     let passes = report.residuals.len();
     let name = match report.method {
-        Method::GaussSeidel => "sweep",
-        Method::ConjugateGradients => "step",
+        Method::GaussSeidel => "Gauss-Seidel sweep",
+        Method::ConjugateGradients => "conjugate-gradient step",
     };
     let plural = if passes == 1 { "" } else { "s" };
-    let method = match (report.method, report.relaxation) {
-        (Method::ConjugateGradients, _) => " of conjugate gradients".to_owned(),
-        (_, Some(factor)) if factor != 1.0 => format!(" overdone by {factor:.2}"),
+    let relaxation = match report.relaxation {
+        Some(factor) if factor != 1.0 => format!(" (relaxation {factor:.2})"),
         _ => String::new(),
     };
     let error = report.error.map_or(String::new(), |error| {
-        format!(", an estimated {error:.0e} from exact")
+        format!(", estimated error {error:.0e}")
     });
     let residual = report.residual;
-    format!("{passes} {name}{plural}{method} to residual {residual:.1e}{error}")
+    format!("{passes} {name}{plural}{relaxation}: residual {residual:.1e}{error}")
 }
 
 /// Where the power goes, over all channels.
@@ -115,8 +114,8 @@ fn energy_line(energy: &Energy) -> Option<String> {
     let percent = |part: [f64; 3]| 100.0 * part.iter().sum::<f64>() / whole;
     (whole > 0.0).then(|| {
         format!(
-            "of the power, {:.1} % absorbed, {:.1} % on backs, {:.1} % out of the scene; {:+.2} % \
-             unaccounted for",
+            "of the light, {:.1} % is absorbed, {:.1} % reaches back faces, {:.1} % leaves the \
+             scene; energy balance {:+.2} %",
             percent(energy.absorbed),
             percent(energy.to_backs),
             percent(energy.to_background),

@@ -17,7 +17,12 @@ pub struct SolveArgs {
     /// Factor on each change of Gauss-Seidel, between 0 and 2, or auto: what the convergence of the
     /// first sweeps suggests; 1 is plain Gauss-Seidel [default: the
     /// scene's, or auto]
-    #[arg(long, value_name = "X|auto", value_parser = number_or_word::<Relaxation>, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "X|auto",
+        value_parser = number_or_word::<Relaxation>,
+        allow_negative_numbers = true,
+    )]
     pub relaxation: Option<Relaxation>,
     /// Relative residual at which the solver stops [default: the scene's, or 1e-6]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]

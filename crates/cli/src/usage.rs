@@ -6,8 +6,8 @@ use clap::builder::Styles;
 use std::io::ErrorKind;
 use std::process::ExitCode;
 
-/// Reads the command line. Help, or what is wrong with the command line, is printed instead, and what comes
-/// back is the exit code.
+/// Reads the command line. Help, or what is wrong with the command line, is printed instead, and
+/// what comes back is the exit code.
 pub fn parse_command_line<C: Parser>() -> Result<C, ExitCode> {
     C::try_parse().map_err(|message| {
         if message.use_stderr() {

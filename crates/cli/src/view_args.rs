@@ -13,12 +13,18 @@ pub struct ViewArgs {
     /// The scene's views by their names, `camera` for its first one, or all
     #[arg(long, value_name = "NAME,..|all", value_delimiter = ',')]
     pub views: Vec<String>,
-    /// Turn once around what is in the middle of the picture, as far away as the middle of the scene, in N
-    /// numbered pictures for each view
+    /// Turn once around what is in the middle of the picture, as far away as the middle of the
+    /// scene, in N numbered pictures for each view
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9999))]
     pub turntable: Option<u32>,
-    /// Go along a smooth path through the views (all, if not told otherwise), in N numbered pictures
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=9999), conflicts_with = "turntable")]
+    /// Go along a smooth path through the views (all, if not told otherwise), in N numbered
+    /// pictures
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u32).range(2..=9999),
+        conflicts_with = "turntable",
+    )]
     pub path: Option<u32>,
     /// What is seen of the backs of surfaces [default: the scene's, or black]
     #[arg(long, value_parser = choice::<Backs>(&BACKS))]

@@ -40,8 +40,8 @@ fn squares(distance: f64, screens: usize) -> Mesh {
     subdivide(&surfaces, Divisions::uniform(16)).expect("the squares are well-formed")
 }
 
-/// Far away stand-ins and Gauss's rules, near by all points and contours, behind screens marks and
-/// lines.
+/// Far away reduced points and Gauss's rules, near by all points and contours, behind screens
+/// marks and lines.
 fn kernels(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("pairs of two squares");
     group.throughput(Throughput::Elements(256 * 256));

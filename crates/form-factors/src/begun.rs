@@ -1,7 +1,7 @@
 //! Rows in parts: some rows at a time, against some tiles at a time.
 
 use crate::estimate::{Estimation, Room};
-use crate::pairs::Told;
+use crate::pairs::TileBlock;
 use crate::tally::{ClassSums, RowError, Tally};
 use crate::tiles::Group;
 use radiosity_matrix::{packed_len, rows_mut};
@@ -143,7 +143,7 @@ impl Estimation<'_> {
         let area = |patch: usize| self.areas[patch];
         let mut classes = ClassSums::default();
         let mut errors = [RowError::default(); LANES];
-        let mut tell = |lane: usize, told: Told<'_>| {
+        let mut tell = |lane: usize, told: TileBlock<'_>| {
             let row = &mut *rows[lane];
             for (&j, &value) in told.others.iter().zip(told.values) {
                 // Only small faces share their tile with patches that come after.

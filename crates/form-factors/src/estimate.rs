@@ -8,7 +8,7 @@
 use crate::accurate::Accurate;
 use crate::monte_carlo::{MonteCarlo, Strata};
 use crate::obstacles::Obstacles;
-use crate::pairs::Told;
+use crate::pairs::TileBlock;
 use crate::part::Part;
 use crate::regular::{Regular, Scratch};
 use crate::surroundings::{Surroundings, around_free_part, look_around};
@@ -128,7 +128,7 @@ impl<'a> Estimation<'a> {
 
     /// Estimates at least so many pairs, spread over all of them, and throws them away: for
     /// predicting how long [`Estimation::run`] will take. Returns how many pairs they were.
-    pub fn rehearse(&self, pairs: u64) -> u64 {
+    pub fn time_sample(&self, pairs: u64) -> u64 {
         let Tiling { tiles, groups, .. } = &self.tiling;
         let run = |k: u64| {
             // The R2 sequence (Roberts 2018) visits the square of pairs evenly.
@@ -139,7 +139,7 @@ impl<'a> Estimation<'a> {
             let group = &groups[spread(0.569_840_290_998_053, groups.len())];
             let mut sum = 0.0;
             let mut room = Room::default();
-            let add = |_, told: Told<'_>| sum += told.values.iter().sum::<f32>();
+            let add = |_, told: TileBlock<'_>| sum += told.values.iter().sum::<f32>();
             let patches = |tile: &Tile| tile.patches.len() as u64;
             let lanes = 0..tiles[tile].patches.len();
             self.against(

@@ -17,7 +17,7 @@ pub(crate) const FEW: usize = MOST_BLOCKERS;
 const MANY: usize = 256;
 
 /// What is found out about a patch and some others, often a single one.
-pub(crate) struct Told<'a> {
+pub(crate) struct TileBlock<'a> {
     pub(crate) others: &'a [usize],
     /// `S_ij` with each of them, in units of the total area.
     pub(crate) values: &'a [f32],
@@ -25,9 +25,9 @@ pub(crate) struct Told<'a> {
     pub(crate) estimate: Option<Exchange>,
 }
 
-impl<'a> Told<'a> {
-    fn plain(others: &'a [usize], values: &'a [f32]) -> Told<'a> {
-        Told {
+impl<'a> TileBlock<'a> {
+    fn plain(others: &'a [usize], values: &'a [f32]) -> TileBlock<'a> {
+        TileBlock {
             others,
             values,
             estimate: None,
@@ -43,7 +43,7 @@ impl Estimation<'_> {
         (tile, lanes): (usize, Range<usize>),
         (group, others): (&Group, Range<usize>),
         room: &mut Room,
-        tell: &mut impl FnMut(usize, Told<'_>),
+        tell: &mut impl FnMut(usize, TileBlock<'_>),
     ) {
         let tiles = &self.tiling.tiles;
         let part = &tiles[tile].part;
@@ -69,7 +69,7 @@ impl Estimation<'_> {
         other: usize,
         between: &Between,
         room: &mut Room,
-        tell: &mut impl FnMut(usize, Told<'_>),
+        tell: &mut impl FnMut(usize, TileBlock<'_>),
     ) {
         let [Tile { patches, .. }, others] = [tile, other].map(|tile| &self.tiling.tiles[tile]);
         if let Method::Regular(regular) = &self.method {
@@ -78,7 +78,7 @@ impl Estimation<'_> {
                 && let Some(values) = regular.exchange_far(&lanes, &mut room.regular)
             {
                 for lane in lanes {
-                    tell(lane, Told::plain(&others.patches, &values[lane]));
+                    tell(lane, TileBlock::plain(&others.patches, &values[lane]));
                 }
                 return;
             }
@@ -132,7 +132,7 @@ impl Estimation<'_> {
         tile: usize,
         between: &Between,
         room: &mut Room,
-        tell: &mut impl FnMut(usize, Told<'_>),
+        tell: &mut impl FnMut(usize, TileBlock<'_>),
     ) {
         let patches = &self.mesh.patches;
         let wall = |patch: usize| self.obstacles.wall(&patches[patch]);
@@ -145,8 +145,10 @@ impl Estimation<'_> {
             Method::Regular(regular) => {
                 let values = regular.exchange(lane, between, &self.obstacles, &mut room.regular);
                 match on_one_wall {
-                    true => tell(lane, Told::plain(&tiles[tile].patches, &values)),
-                    false => others.for_each(|(k, j)| tell(lane, Told::plain(&[j], &[values[k]]))),
+                    true => tell(lane, TileBlock::plain(&tiles[tile].patches, &values)),
+                    false => {
+                        others.for_each(|(k, j)| tell(lane, TileBlock::plain(&[j], &[values[k]])))
+                    }
                 }
             }
             Method::MonteCarlo(monte_carlo) => {
@@ -155,7 +157,7 @@ impl Estimation<'_> {
                     let value = monte_carlo.estimate(ends, &mut room.strata, |p, q| {
                         !between.cuts(&self.obstacles.occluders, (wall(i), p), (wall(j), q))
                     });
-                    tell(lane, Told::plain(&[j], &[(value * self.scale) as f32]));
+                    tell(lane, TileBlock::plain(&[j], &[(value * self.scale) as f32]));
                 }
             }
             Method::Accurate(accurate) => {
@@ -163,7 +165,7 @@ impl Estimation<'_> {
                 for (k, j) in others {
                     let exchange = self.accurate(accurate, [i, j], far[k], between);
                     if let Some(exchange) = exchange.filter(|e| e.value > 0.0 || e.error > 0.0) {
-                        let told = Told {
+                        let told = TileBlock {
                             others: &[j],
                             values: &[(exchange.value * self.scale) as f32],
                             estimate: Some(exchange),

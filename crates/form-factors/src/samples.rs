@@ -2,7 +2,7 @@
 
 use crate::obstacles::Obstacles;
 use crate::points::{Sample, regular};
-use crate::stand_ins::{STAND_INS, stand_ins};
+use crate::reduced_points::{REDUCED_POINTS, reduced_points};
 use crate::tiles::Tile;
 use radiosity_geometry::{Aabb, DVec3, FaceId, Mesh, Patch};
 use radiosity_simd::{Float, LANES, Simd};
@@ -22,7 +22,7 @@ const LARGEST: f64 = 1e6;
 pub(crate) struct Samples {
     pub(crate) points: Vec<Point<f64>>,
     /// Those that stand for them far away; of patches without, points without area.
-    stand_ins: Vec<Point<f64>>,
+    reduced_points: Vec<Point<f64>>,
     /// From the centroid to the farthest point.
     radius: Lanes<f32>,
     /// Up to this distance between centroids, none stand for them.
@@ -40,7 +40,7 @@ pub(crate) struct Samples {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Local {
     pub(crate) points: Vec<Point<f32>>,
-    pub(crate) stand_ins: Vec<Point<f32>>,
+    pub(crate) reduced_points: Vec<Point<f32>>,
     pub(crate) radius: Lanes<f32>,
     pub(crate) near: Lanes<f32>,
     pub(crate) centroid: [Lanes<f32>; 3],
@@ -98,7 +98,7 @@ impl Samples {
             &mesh.patches[*index]
         });
         let all = patches.map(|patch| regular(&patch.polygon, points));
-        let few = patches.map(|patch| stand_ins(&patch.polygon, points));
+        let few = patches.map(|patch| reduced_points(&patch.polygon, points));
         let point = |sample_of: &dyn Fn(usize) -> Sample| {
             let area = |lane: usize| match tile.patches.get(lane) {
                 Some(_) => (sample_of(lane).area / units.area) as f32,
@@ -109,7 +109,7 @@ impl Samples {
                 area: std::array::from_fn(area),
             }
         };
-        let stand_in = |lane: usize, k: usize| match few[lane] {
+        let reduced_point = |lane: usize, k: usize| match few[lane] {
             Some(few) => few[k],
             None => Sample {
                 point: patches[lane].centroid,
@@ -129,8 +129,8 @@ impl Samples {
             points: (0..all[0].len())
                 .map(|k| point(&|lane| all[lane][k]))
                 .collect(),
-            stand_ins: (0..STAND_INS)
-                .map(|k| point(&|lane| stand_in(lane, k)))
+            reduced_points: (0..REDUCED_POINTS)
+                .map(|k| point(&|lane| reduced_point(lane, k)))
                 .collect(),
             radius,
             near: std::array::from_fn(near),
@@ -167,7 +167,12 @@ impl Samples {
         (local.radius, local.near) = (self.radius, self.near);
         local.centroid = relative(simd, &self.centroid, center);
         local.points.clear();
-        rounded(simd, &self.stand_ins, center, &mut local.stand_ins);
+        rounded(
+            simd,
+            &self.reduced_points,
+            center,
+            &mut local.reduced_points,
+        );
     }
 
     /// Rounds the points relative to a tile.

@@ -107,11 +107,11 @@ fn by_few<S: Simd>(
     to: &Local,
     sources: &mut Vec<Source>,
 ) -> S::F32 {
-    find_sources(simd, (&from.stand_ins, lane), to, sources);
+    find_sources(simd, (&from.reduced_points, lane), to, sources);
     let pairs = Pairs {
         plane: Plane::of(from, lane),
         sources,
-        targets: &to.stand_ins,
+        targets: &to.reduced_points,
         nearest: [0.0; LANES],
         blocked: &[],
     };

@@ -147,8 +147,8 @@ pub fn of_picture(patches: &Patches<'_>, camera: &Camera, params: &ImageParams) 
         "the camera sees nothing: move it, or turn it to the scene".to_owned()
     } else {
         format!(
-            "the camera sees nothing but backs, of {}: move it to their other side, reverse the order of \
-             their corners, or let backs be transparent",
+            "the camera sees nothing but backs, of {}: move it to their other side, reverse the \
+             order of their corners, or let backs be transparent",
             named(backs)
         )
     }

@@ -131,8 +131,8 @@ impl Error {
                 size,
                 largest,
             } => format!(
-                "a patch of `{}` is {size:.1e} large, where coordinates are up to {largest:.1e}: they leave \
-                 no digits for it (at least {:.1e} is needed)",
+                "a patch of `{}` is {size:.1e} large, where coordinates are up to {largest:.1e}: \
+                 they leave no digits for it (at least {:.1e} is needed)",
                 name(surface),
                 LEAST_SIZE * largest,
             ),

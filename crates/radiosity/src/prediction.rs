@@ -8,17 +8,17 @@ use std::time::Instant;
 
 /// Below this many pairs of points a prediction costs more than it is worth.
 const PREDICTED_FROM: u64 = 20_000_000;
-/// A rehearsal goes on until it has taken so many seconds, or done one in so many of the run's
+/// A timed sample goes on until it has taken so many seconds, or done one in so many of the run's
 /// pairs of points: fewer may all be of patches that see nothing of each other, or more of each
 /// other than most.
 const LONG_ENOUGH: f64 = 0.1;
-const REHEARSED_ONE_IN: u64 = 40;
-/// With more points along an edge, or more pairs of points, a rehearsal takes these.
+const SAMPLE_ONE_IN: u64 = 40;
+/// With more points along an edge, or more pairs of points, a timed sample takes these.
 const MOST_POINTS: u32 = 16;
 const MOST_POINT_PAIRS: u32 = 4096;
 
 /// Patches, pairs, memory, disk and time of an estimation of which so many pairs are left, the
-/// time from a rehearsal; `None` if it will be over soon.
+/// time from a timed sample; `None` if it will be over soon.
 pub(crate) fn prediction(
     needs: &Needs,
     left: u64,
@@ -29,7 +29,7 @@ pub(crate) fn prediction(
     if work < PREDICTED_FROM {
         return None;
     }
-    let (estimator, factor) = rehearsed(job.estimator);
+    let (estimator, factor) = sampled(job.estimator);
     let smaller = (factor > 1.0).then(|| Estimation::new(job.mesh, estimator));
     let estimation = smaller.as_ref().unwrap_or(estimation);
     let seconds = factor * left as f64 * seconds_per_pair(estimation, enough(left, factor));
@@ -43,9 +43,9 @@ pub(crate) fn prediction(
     ))
 }
 
-/// An estimator that takes no longer than a rehearsal should, and how many times as long the other
-/// takes: as many as it has pairs of points.
-fn rehearsed(estimator: Estimator) -> (Estimator, f64) {
+/// An estimator that takes no longer than a timed sample should, and how many times as long the
+/// other takes: as many as it has pairs of points.
+fn sampled(estimator: Estimator) -> (Estimator, f64) {
     let smaller = match estimator {
         Estimator::Regular { points } => Estimator::Regular {
             points: points.min(MOST_POINTS),
@@ -67,15 +67,15 @@ fn rehearsed(estimator: Estimator) -> (Estimator, f64) {
 
 /// How many pairs are enough of so many that are left, where each takes so many times as long.
 fn enough(left: u64, factor: f64) -> u64 {
-    (factor * left as f64) as u64 / REHEARSED_ONE_IN
+    (factor * left as f64) as u64 / SAMPLE_ONE_IN
 }
 
-/// The time of a pair, by a rehearsal that need not do more than enough of them.
+/// The time of a pair, by a timed sample that need not do more than enough of them.
 fn seconds_per_pair(estimation: &Estimation<'_>, enough: u64) -> f64 {
     let mut wanted = 2 * rayon::current_num_threads() as u64;
     loop {
         let start = Instant::now();
-        let done = estimation.rehearse(wanted);
+        let done = estimation.time_sample(wanted);
         let seconds = start.elapsed().as_secs_f64();
         if seconds >= LONG_ENOUGH || done >= enough {
             return seconds / done as f64;
@@ -91,16 +91,16 @@ mod tests {
     #[test]
     fn rehearsals_are_short_whatever_is_asked_for() {
         let regular = |points| Estimator::Regular { points };
-        assert_eq!(rehearsed(regular(3)), (regular(3), 1.0));
-        assert_eq!(rehearsed(regular(32)), (regular(16), 16.0));
+        assert_eq!(sampled(regular(3)), (regular(3), 1.0));
+        assert_eq!(sampled(regular(32)), (regular(16), 16.0));
         let random = |pairs| Estimator::MonteCarlo {
             points: 4,
             pairs,
             seed: 1,
         };
-        assert_eq!(rehearsed(random(1 << 20)), (random(1 << 12), 256.0));
+        assert_eq!(sampled(random(1 << 20)), (random(1 << 12), 256.0));
         let accurate = Estimator::Accurate { tolerance: 1e-6 };
-        assert_eq!(rehearsed(accurate), (accurate, 1.0));
+        assert_eq!(sampled(accurate), (accurate, 1.0));
     }
 
     /// The same part of the work, whatever the points: of few pairs, each several times.

@@ -63,7 +63,8 @@ impl Needs {
         }
     }
 
-    /// The same with form factors that are closed once they are estimated, if they are: both are kept.
+    /// The same with form factors that are closed once they are estimated, if they are: both are
+    /// kept.
     pub fn with_closure(self, is_closed: bool) -> Needs {
         let copies = u64::from(is_closed);
         Needs {
@@ -117,8 +118,8 @@ impl Needs {
         let about = two_digits(fit);
         if self.faces as u64 > fit {
             Remedy::Words(format!(
-                "use coarser meshes, or split the scene: each of its {} faces is a patch at least, and about \
-                 {} fit",
+                "use coarser meshes, or split the scene: each of its {} faces is a patch at \
+                 least, and about {} fit",
                 grouped(self.faces as u64),
                 grouped(about)
             ))

@@ -11,7 +11,7 @@
 //! known before the sweep begins. When the sweep ends, both sums are known for the new values:
 //! the residual needs no further pass.
 //!
-//! Greater `omega` overdoes each change (successive over-relaxation). The system is that of a
+//! Greater `omega` over-relaxes each change (successive over-relaxation). The system is that of a
 //! symmetric positive definite matrix, `A (1/rho - F)`, so every `omega` in (0, 2) converges
 //! (Ostrowski 1954). Which is best is known where every patch sees all others equally, of
 //! reflectance `r`. Take the place of a patch in the order as a number `t` from 0 to 1. A change
@@ -41,7 +41,7 @@ const ROUNDING: f64 = 4.0 * LOST;
 /// those of two sweeps are a sixteenth of this.
 const TELLING: f64 = 32.0 * LOST;
 /// Sweeps without less of a change after which none is expected.
-const SWEEPS_AT_REST: usize = 4;
+const STAGNANT_SWEEPS: usize = 4;
 
 pub(crate) struct GaussSeidel<'a> {
     problem: Rc<Problem<'a>>,
@@ -145,8 +145,8 @@ impl<'a> GaussSeidel<'a> {
 }
 
 /// Whether changes are roundings, and have not become less for some sweeps.
-fn is_at_rest(changes: &[f64]) -> bool {
-    let Some((before, last)) = changes.split_last_chunk::<SWEEPS_AT_REST>() else {
+fn has_stagnated(changes: &[f64]) -> bool {
+    let Some((before, last)) = changes.split_last_chunk::<STAGNANT_SWEEPS>() else {
         return false;
     };
     let least = |changes: &[f64]| changes.iter().copied().fold(f64::INFINITY, f64::min);
@@ -192,7 +192,7 @@ impl Iteration for GaussSeidel<'_> {
         Progress {
             residual: self.residual(),
             error,
-            stalled: is_at_rest(&self.changes),
+            stalled: has_stagnated(&self.changes),
             suspicious: false,
         }
     }

@@ -1,7 +1,7 @@
 //! `compare` of pictures.
 
 use super::{Compared, at};
-use crate::args::CompareCommand;
+use crate::compare_args::CompareCommand;
 use crate::error::Error;
 use crate::input::read;
 use crate::run::write;
@@ -24,8 +24,8 @@ const USUAL: Transfer = Transfer::Gamma(2.2);
 
 /// A linear picture.
 const BYTES_OF_IMAGE: u64 = 12;
-/// Two of them and the differences of three channels with their weights. A picture of differences is made
-/// after these.
+/// Two of them and the differences of three channels with their weights. A picture of differences
+/// is made after these.
 const BYTES_PER_PIXEL: u64 = 2 * BYTES_OF_IMAGE + 3 * 8;
 /// The number of its region, and the differences once more while those of regions are joined.
 const BYTES_OF_REGIONS: u64 = 1 + 3 * 8;
@@ -64,8 +64,8 @@ pub(super) fn pictures(
     let is_lost =
         |image: &ImageParams| image.tone != Curve::Clamp || image.exposure.number().is_none();
     if (found.levels || reference.levels) && args.exposure.is_none() && image.is_some_and(is_lost) {
-        let problem = "the scene's exposure is automatic, or its tone is a curve: levels do not tell \
-                       radiance";
+        let problem = "the scene's exposure is automatic, or its tone is a curve: levels do not \
+            tell radiance";
         return Err(Error::with_help(
             problem,
             "compare .pfm files, or state the --exposure",
@@ -78,8 +78,8 @@ pub(super) fn pictures(
     let named = errors.map_err(|error| Error::input(error.to_string()))?;
     if let Some(path) = &args.difference {
         let bytes = difference(path, &found, &reference);
-        // Not earlier: the allocator gives each thread addresses of its own, which under `ulimit -v` may be
-        // those that the pictures were promised.
+        // Not earlier: the allocator gives each thread addresses of its own, which under
+        // `ulimit -v` may be those that the pictures were promised.
         remove_unfinished_on_signals();
         write(path, None, &bytes)?;
     }
@@ -124,7 +124,8 @@ fn difference(path: &Path, found: &Decoded, reference: &Decoded) -> Vec<u8> {
         tell("the pictures are equal");
     } else {
         tell(&format!(
-            "red: brighter than the reference, blue: darker; full colour at a difference of {:.3e} W/(m^2 sr)",
+            "red: brighter than the reference, blue: darker; full colour at a difference of \
+             {:.3e} W/(m^2 sr)",
             shown.full_scale
         ));
     }

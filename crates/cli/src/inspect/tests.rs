@@ -85,8 +85,8 @@ fn inspected(path: &Path) -> Result<(), Miss> {
     Ok(())
 }
 
-/// Makes the digest of a header fit again, as whoever forges a file does: magic, version, length of the
-/// header, its digest, and the header.
+/// Makes the digest of a header fit again, as whoever forges a file does: magic, version, length of
+/// the header, its digest, and the header.
 fn seal(bytes: &mut [u8]) {
     let Some(length) = bytes.get(12..20) else {
         return;

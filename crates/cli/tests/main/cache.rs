@@ -112,3 +112,21 @@ fn wrong_limits_are_explained() {
     }
     assert_eq!(place.artifacts().len(), 2, "nothing is removed");
 }
+
+#[test]
+fn the_cache_is_listed_and_emptied() {
+    let place = Place::new();
+    assert!(place.succeed("cache list").starts_with("0 files"));
+    place.succeed("render room.toml");
+    let list = place.succeed("cache list");
+    assert!(
+        list.contains("form-factors") && list.contains("solution"),
+        "{list}"
+    );
+    assert!(
+        list.contains("2 files") && list.contains("platform-cache"),
+        "{list}"
+    );
+    assert!(place.succeed("cache clean").starts_with("removed 2 files"));
+    assert!(place.succeed("cache list").starts_with("0 files"));
+}

@@ -214,24 +214,6 @@ fn radiosities_are_exported_in_input_order() {
 }
 
 #[test]
-fn the_cache_is_listed_and_emptied() {
-    let place = Place::new();
-    assert!(place.succeed("cache list").starts_with("0 files"));
-    place.succeed("render room.toml");
-    let list = place.succeed("cache list");
-    assert!(
-        list.contains("form-factors") && list.contains("solution"),
-        "{list}"
-    );
-    assert!(
-        list.contains("2 files") && list.contains("platform-cache"),
-        "{list}"
-    );
-    assert!(place.succeed("cache clean").starts_with("removed 2 files"));
-    assert!(place.succeed("cache list").starts_with("0 files"));
-}
-
-#[test]
 fn check_computes_nothing() {
     let place = Place::new();
     let said = place.succeed("check room.toml --patches 100");

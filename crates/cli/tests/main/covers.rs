@@ -7,7 +7,8 @@ use std::fs;
 fn room(mode: &str) -> String {
     let wall = |name: &str, corner: &str, edge_a: &str, edge_b: &str| {
         format!(
-            "[[surfaces]]\nname = \"{name}\"\nmaterial = \"white\"\nparallelogram = {{ corner = {corner}, \
+            "[[surfaces]]\nname = \"{name}\"\nmaterial = \"white\"\n\
+             parallelogram = {{ corner = {corner}, \
              edge_a = {edge_a}, edge_b = {edge_b} }}\n"
         )
     };
@@ -22,7 +23,8 @@ fn room(mode: &str) -> String {
         wall("lamp", "[1.3, 2.1, 1]", "[0, -1.4, 0]", "[-0.8, 0, 0]").replace("white", "lamp"),
     ];
     format!(
-        "[camera]\nposition = [0.9, 1.4, 0.2]\nlook_at = [0.9, 1.4, 1]\nup = [0, 1, 0]\nvertical_fov = 20\n\
+        "[camera]\nposition = [0.9, 1.4, 0.2]\nlook_at = [0.9, 1.4, 1]\nup = [0, 1, 0]\n\
+         vertical_fov = 20\n\
          [image]\nwidth = 24\nheight = 24\n[discretization]\ndivisions = 5\n\
          [form_factors]\nmode = \"{mode}\"\n\
          [materials.white]\nreflectance = 0.6\n[materials.lamp]\nreflectance = 0\nemission = 1\n{}",

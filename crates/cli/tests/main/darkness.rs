@@ -1,69 +1,7 @@
 //! What is said of black pictures, and of closed scenes that are not.
 
 use crate::place::Place;
-
-/// A box of 2 x 3 x 1 with a lamp under its lid, seen from the middle; faces turned inwards.
-const BOX: [(&str, [u32; 4]); 5] = [
-    ("floor", [0, 1, 3, 2]),
-    ("left", [0, 2, 6, 4]),
-    ("right", [1, 5, 7, 3]),
-    ("front", [0, 4, 5, 1]),
-    ("back", [2, 3, 7, 6]),
-];
-
-fn corner(k: u32) -> [f64; 3] {
-    [
-        2.0 * f64::from(k & 1),
-        3.0 * f64::from(k >> 1 & 1),
-        f64::from(k >> 2),
-    ]
-}
-
-struct Room {
-    inwards: bool,
-    emission: f64,
-    look_at: [f64; 3],
-}
-
-const ORDINARY: Room = Room {
-    inwards: true,
-    emission: 1.0,
-    look_at: [1.0, 3.0, 0.5],
-};
-
-fn text_of(room: &Room) -> String {
-    let quad = |name: &str, corners: [[f64; 3]; 4], material: &str| {
-        format!("[[surfaces]]\nname = \"{name}\"\nmaterial = \"{material}\"\nquad = {corners:?}\n")
-    };
-    let wall = |&(name, corners): &(&str, [u32; 4])| {
-        let mut corners = corners.map(corner);
-        if !room.inwards {
-            corners.reverse();
-        }
-        quad(name, corners, "white")
-    };
-    let lamp = [
-        [0.5, 0.5, 1.0],
-        [0.5, 2.5, 1.0],
-        [1.5, 2.5, 1.0],
-        [1.5, 0.5, 1.0],
-    ];
-    let walls: String = BOX.iter().map(wall).collect();
-    format!(
-        "[camera]\nposition = [1, 1.5, 0.5]\nlook_at = {:?}\nup = [0.1, 0.2, 1]\nvertical_fov = 40\n\
-         [image]\nwidth = 12\nheight = 8\n[discretization]\ndivisions = 2\n\
-         [materials.white]\nreflectance = 0.5\n[materials.lamp]\nreflectance = 0\nemission = {}\n{walls}{}",
-        room.look_at,
-        room.emission,
-        quad("lamp", lamp, "lamp"),
-    )
-}
-
-fn place(room: &Room) -> Place {
-    let place = Place::new();
-    place.write("room.toml", &text_of(room));
-    place
-}
+use crate::room::{BOX, ORDINARY, Room, corner, place, text_of};
 
 fn said(place: &Place, command: &str) -> String {
     let (code, stdout, stderr) = place.run(command);
@@ -153,8 +91,8 @@ fn lights_that_are_tinted_to_nothing_are_told() {
     }
 }
 
-/// Of two faces in one plane the smaller one counts, or the later one of equal ones: a shade over all of the
-/// lamp takes its light, one over half of it does not.
+/// Of two faces in one plane the smaller one counts, or the later one of equal ones: a shade over
+/// all of the lamp takes its light, one over half of it does not.
 #[test]
 fn covered_lamps_are_told() {
     let (place, text) = (place(&ORDINARY), text_of(&ORDINARY));

@@ -68,7 +68,7 @@ fn solutions_are_described() {
     let solution = file(&place, "solution");
     let said = place.succeed(&format!("inspect {solution}"));
     assert!(
-        said.contains("17 patches") && said.contains("sweeps to residual"),
+        said.contains("17 patches") && said.contains("sweeps: residual"),
         "{said}"
     );
     let found = place.json(&format!("inspect {solution}"));

@@ -36,7 +36,8 @@ fn relighting_is_solving_anew() {
     two_lamps(&place, "emission = [4, 3, 2]", GLOW);
     place.json("solve room.toml --cache c");
     let report = place.json(
-        "relight room.toml --cache c --dim lamp=0.5 --tint lamp=1,0.5,2 --dim glow=3 --export a.csv",
+        "relight room.toml --cache c --dim lamp=0.5 --tint lamp=1,0.5,2 --dim glow=3 \
+         --export a.csv",
     );
     assert_eq!(report["stages"]["solve"]["cached"], true);
     let dimmed = GLOW.replace("[1, 2, 3]", "[3, 6, 9]");

@@ -3,8 +3,8 @@
 use crate::place::{Place, SCENE};
 use std::fs;
 
-/// Names that would recolour the terminal, ring, go back to the line's begin, and turn the direction of
-/// writing.
+/// Names that would recolour the terminal, ring, go back to the line's begin, and turn the
+/// direction of writing.
 const HOSTILE: &str = r"fl\u001b[41mo\u0007o\rr\n\u009b1m\u202E";
 const SHOWN: &str = r"fl\u{1b}[41mo\u{7}o\u{d}r\u{a}\u{9b}1m\u{202e}";
 

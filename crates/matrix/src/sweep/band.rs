@@ -38,7 +38,7 @@ pub(super) struct Block<'a> {
 }
 
 /// The rows of a block in a band.
-pub(super) struct Stretch<'a> {
+pub(super) struct BlockInBand<'a> {
     rows: &'a [&'a [Piece<f32>]; BLOCK],
     pub(super) pieces: Range<usize>,
 }
@@ -76,17 +76,17 @@ impl<'a> Block<'a> {
     }
 
     /// The rows in a band.
-    pub(super) fn stretch(&self, band: usize) -> Stretch<'_> {
+    pub(super) fn in_band(&self, band: usize) -> BlockInBand<'_> {
         let pieces = self.rows[0].len();
         let first = pieces.min(band * PIECES);
-        Stretch {
+        BlockInBand {
             rows: &self.rows,
             pieces: first..pieces.min(first + PIECES),
         }
     }
 }
 
-impl<'a> Stretch<'a> {
+impl<'a> BlockInBand<'a> {
     /// Some of the rows, as far as so many pieces.
     #[inline(always)]
     pub(super) fn rows<const COUNT: usize>(

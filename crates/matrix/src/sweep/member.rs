@@ -1,6 +1,6 @@
 //! What one thread knows of a sweep, and does in it.
 
-use super::band::{Block, OfRows, Stretch, blocks_of, is_dark};
+use super::band::{Block, BlockInBand, OfRows, blocks_of, is_dark};
 use super::step::Step;
 use super::team::{Claim, End, Team};
 
@@ -84,7 +84,7 @@ impl<'a, 't> Member<'a, 't> {
 
     fn step(&mut self, claim: &Claim) {
         let (team, band) = (self.team, claim.band);
-        let last = self.last.as_ref().map(|last| last.stretch(band));
+        let last = self.last.as_ref().map(|last| last.in_band(band));
         let next = lit(team, &self.next, band);
         let ahead = match claim.following {
             Some(band) => lit(team, &self.next, band),
@@ -106,7 +106,7 @@ impl<'a, 't> Member<'a, 't> {
 }
 
 /// A block in a band, unless that is dark, so that there is nothing to multiply.
-fn lit<'b>(team: &Team<'_>, block: &'b Option<Block<'_>>, band: usize) -> Option<Stretch<'b>> {
+fn lit<'b>(team: &Team<'_>, block: &'b Option<Block<'_>>, band: usize) -> Option<BlockInBand<'b>> {
     let block = block.as_ref().filter(|_| team.is_lit(band));
-    block.map(|block| block.stretch(band))
+    block.map(|block| block.in_band(band))
 }

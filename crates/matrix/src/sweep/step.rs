@@ -1,7 +1,7 @@
 //! What one step of a sweep does on a band of columns.
 
 use super::Triple;
-use super::band::{BLOCK, Band, OfBand, OfRows, PIECES, Piece, Stretch};
+use super::band::{BLOCK, Band, BlockInBand, OfBand, OfRows, PIECES, Piece};
 use radiosity_simd::{Float, Kernel, LANES, Simd, WideFloat};
 
 /// Rows that are taken together: their sums, or their factors, fit into the registers.
@@ -14,12 +14,12 @@ const HALF: usize = QUAD / 2;
 pub(super) struct Step<'a> {
     pub(super) band: &'a mut Band,
     /// The last block in this band, with its values.
-    pub(super) last: Option<(Stretch<'a>, &'a [OfRows<f32>])>,
+    pub(super) last: Option<(BlockInBand<'a>, &'a [OfRows<f32>])>,
     /// The next block in this band, and where its products with the band go.
-    pub(super) next: Option<(Stretch<'a>, &'a mut [OfRows<f32>])>,
+    pub(super) next: Option<(BlockInBand<'a>, &'a mut [OfRows<f32>])>,
     /// What the next step of this thread reads first; where it helps another with that one's last
     /// band, what the other does.
-    pub(super) ahead: Option<Stretch<'a>>,
+    pub(super) ahead: Option<BlockInBand<'a>>,
     /// Whether what the last blocks added becomes part of the sums in double precision.
     pub(super) settles: bool,
 }
@@ -69,7 +69,7 @@ const NOTHING: Ahead<'_> = [&[]; HALF];
 
 /// Some rows, from one on, of what is ahead.
 #[inline(always)]
-fn fetched<'a>(ahead: &Option<Stretch<'a>>, first: usize) -> Ahead<'a> {
+fn fetched<'a>(ahead: &Option<BlockInBand<'a>>, first: usize) -> Ahead<'a> {
     match ahead {
         Some(ahead) => ahead.rows(first, ahead.pieces.len()),
         None => NOTHING,
@@ -89,7 +89,7 @@ fn fetch<S: Simd>(simd: S, ahead: Ahead<'_>, piece: usize) {
 #[inline(always)]
 fn add<S: Simd>(
     simd: S,
-    rows: &Stretch<'_>,
+    rows: &BlockInBand<'_>,
     quad: usize,
     ahead: Ahead<'_>,
     values: &OfRows<f32>,
@@ -141,7 +141,7 @@ fn settle<S: Simd>(simd: S, triple: &mut OfBand) {
 #[inline(always)]
 fn multiply<S: Simd>(
     simd: S,
-    rows: &Stretch<'_>,
+    rows: &BlockInBand<'_>,
     quad: usize,
     ahead: Ahead<'_>,
     [x, y, z]: &Triple<[Piece<f32>; PIECES]>,

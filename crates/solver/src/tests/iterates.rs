@@ -47,7 +47,7 @@ proptest! {
     }
 
     #[test]
-    fn iterates_are_overdone_by_the_factor(
+    fn iterates_are_relaxed_by_the_factor(
         case in random_case(),
         sweeps in 1u32..6,
         factor in 0.5f64..1.5,

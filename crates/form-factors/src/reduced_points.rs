@@ -7,12 +7,12 @@ use crate::points::{Sample, regular};
 use radiosity_geometry::{DVec3, Polygon};
 
 /// How many points stand for all others.
-pub(crate) const STAND_INS: usize = 4;
+pub(crate) const REDUCED_POINTS: usize = 4;
 
 /// The points that stand for the `n x n` regular ones; their areas add up to the patch's. `None` if
 /// these are not more, or do not have the same area each.
-pub(crate) fn stand_ins(polygon: &Polygon, n: u32) -> Option<[Sample; STAND_INS]> {
-    if n * n <= STAND_INS as u32 {
+pub(crate) fn reduced_points(polygon: &Polygon, n: u32) -> Option<[Sample; REDUCED_POINTS]> {
+    if n * n <= REDUCED_POINTS as u32 {
         None
     } else if polygon.is_triangle() {
         Some(on_triangle(polygon, n))
@@ -24,19 +24,19 @@ pub(crate) fn stand_ins(polygon: &Polygon, n: u32) -> Option<[Sample; STAND_INS]
 }
 
 /// Along each edge, one standard deviation of all points to either side of the middle.
-fn on_parallelogram(polygon: &Polygon, n: u32) -> [Sample; STAND_INS] {
+fn on_parallelogram(polygon: &Polygon, n: u32) -> [Sample; REDUCED_POINTS] {
     let deviation = ((1.0 - f64::from(n).powi(-2)) / 12.0).sqrt();
     let [low, high] = [0.5 - deviation, 0.5 + deviation];
     [(low, low), (low, high), (high, low), (high, high)].map(|(u, v)| Sample {
         point: polygon.bilinear(u, v),
-        area: polygon.area() / STAND_INS as f64,
+        area: polygon.area() / REDUCED_POINTS as f64,
     })
 }
 
 /// The centroid, whose area is negative (seen from afar, the others make up for it), and a point on
 /// the way from it to each corner. By symmetry there is but one moment of the second order, and one
 /// of the third.
-fn on_triangle(polygon: &Polygon, n: u32) -> [Sample; STAND_INS] {
+fn on_triangle(polygon: &Polygon, n: u32) -> [Sample; REDUCED_POINTS] {
     let standard = Polygon::triangle([DVec3::ZERO, DVec3::X, DVec3::Y]);
     let weights = regular(&standard, n).into_iter();
     let deviations: Vec<f64> = weights.map(|sample| sample.point.x - 1.0 / 3.0).collect();
@@ -84,7 +84,7 @@ mod tests {
         for polygon in [triangle, parallelogram] {
             for n in 3..8 {
                 let centroid = polygon.centroid();
-                let few = moments(&stand_ins(&polygon, n).unwrap(), centroid);
+                let few = moments(&reduced_points(&polygon, n).unwrap(), centroid);
                 let all = moments(&regular(&polygon, n), centroid);
                 let errors = few.iter().zip(&all).map(|(few, all)| (few - all).abs());
                 assert!(errors.fold(0.0, f64::max) < 1e-14, "{n}: {few:?}, {all:?}");
@@ -100,8 +100,8 @@ mod tests {
             DVec3::new(0.7, 1.0, 0.0),
             DVec3::new(0.3, 1.0, 0.0),
         ];
-        assert!(stand_ins(&Polygon::quad(corners), 3).is_none());
+        assert!(reduced_points(&Polygon::quad(corners), 3).is_none());
         let square = Polygon::quad([DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y]);
-        assert!(stand_ins(&square, 2).is_none());
+        assert!(reduced_points(&square, 2).is_none());
     }
 }
