@@ -1,10 +1,11 @@
 //! The whole chain against path-traced truth.
 
+use radiosity::compare::Table;
 use radiosity::form_factors::Mode;
 use radiosity::geometry::{Divisions, PixelFilter};
 use radiosity::renderer::Shading;
 use radiosity::stages::PatchLight;
-use radiosity::{Context, estimate, radiosity_table, render, solve, subdivide};
+use radiosity::{Context, Project, estimate, radiosity_table, render, solve, subdivide};
 use radiosity_tests::{BOTH, Chain, picture_errors, radiosity_errors, shipped, table_errors};
 
 /// What the course program is known to reach on its scene, to a tenth of a point: RMSE 4.50 %
@@ -52,30 +53,45 @@ fn the_course_is_reproduced() {
 /// where what is visible of them is.
 #[test]
 fn accurate_factors_leave_the_error_of_the_patches() {
+    let project = accurate_cornell(12);
+    check_table(&project, &table(&project), (12, 1.25, 0.35));
+}
+
+#[test]
+#[ignore = "slow: five seconds"]
+fn smaller_patches_leave_less() {
+    let project = accurate_cornell(24);
+    let fine = table(&project);
+    let coarse = fine.coarsened(6).unwrap();
+    check_table(&project, &fine, (24, 0.5, 0.15));
+    check_table(&project, &coarse, (4, 0.4, 0.15));
+}
+
+/// With so many patches along each edge.
+fn accurate_cornell(n: u32) -> Project {
     let mut project = shipped("cornell");
     project.params.form_factors.mode = Mode::Accurate;
     project.params.form_factors.tolerance = 2e-3;
-    let tables = [12, 24].map(|n| {
-        project.params.discretization.default = Divisions::uniform(n);
-        let chain = Chain::of(&project);
-        let means = chain.light().mean_radiosity();
-        radiosity_table(&project.scene, &chain.patches.mesh, &means)
-    });
-    let coarse = tables[1].coarsened(6).unwrap();
-    for (found, n, most, bias) in [
-        (&tables[0], 12, 1.25, 0.35),
-        (&tables[1], 24, 0.5, 0.15),
-        (&coarse, 4, 0.4, 0.15),
-    ] {
-        let errors = table_errors(&project.scene, found, n);
-        let rmse = errors.rmse_percent_without_noise();
-        println!(
-            "{n} x {n}: RMSE {rmse:.3} %, bias {:+.3} %",
-            errors.bias_percent
-        );
-        assert!(rmse <= most, "{n}: {errors:?}");
-        assert!(errors.bias_percent.abs() <= bias, "{n}: {errors:?}");
-    }
+    project.params.discretization.default = Divisions::uniform(n);
+    project
+}
+
+fn table(project: &Project) -> Table {
+    let chain = Chain::of(project);
+    let means = chain.light().mean_radiosity();
+    radiosity_table(&project.scene, &chain.patches.mesh, &means)
+}
+
+/// Cells along each edge, and the most errors in percent: the root mean square, and the bias.
+fn check_table(project: &Project, found: &Table, (n, most, bias): (u32, f64, f64)) {
+    let errors = table_errors(&project.scene, found, n);
+    let rmse = errors.rmse_percent_without_noise();
+    println!(
+        "{n} x {n}: RMSE {rmse:.3} %, bias {:+.3} %",
+        errors.bias_percent
+    );
+    assert!(rmse <= most, "{n}: {errors:?}");
+    assert!(errors.bias_percent.abs() <= bias, "{n}: {errors:?}");
 }
 
 /// Pictures from nearly exact factors, away from edges: what Catmull and Rom's spline leaves of

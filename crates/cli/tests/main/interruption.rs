@@ -75,7 +75,7 @@ fn kill_after_checkpoint(place: &Place) {
 
 #[test]
 fn killed_runs_go_on_where_they_were() {
-    killed_runs_go_on(6);
+    killed_runs_go_on(4);
 }
 
 #[test]
