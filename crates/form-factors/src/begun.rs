@@ -13,11 +13,11 @@ use std::time::{Duration, Instant};
 
 /// Rows on their way: see [`Estimation::begin`].
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Begun {
+pub struct Begun<V = Vec<f32>> {
     /// Which rows.
     pub rows: Range<usize>,
     /// Their values, one row after the other.
-    pub values: Vec<f32>,
+    pub values: V,
     /// They are estimated against the first so many tiles.
     tiles: usize,
     /// How many tiles the next part adds.
@@ -36,9 +36,14 @@ impl Estimation<'_> {
     /// Rows that [`Estimation::next_rows`] gave, with nothing of them estimated yet.
     pub fn begin(&self, rows: Range<usize>) -> Begun {
         let pairs = packed_len(rows.end) - packed_len(rows.start);
+        self.begin_in(rows, vec![0.0; pairs])
+    }
+
+    /// The same with values in another place, which are zero and as many as the rows have.
+    pub fn begin_in<V: AsMut<[f32]>>(&self, rows: Range<usize>, values: V) -> Begun<V> {
         Begun {
-            values: vec![0.0; pairs],
             rows,
+            values,
             tiles: 0,
             step: 1,
         }
@@ -62,10 +67,11 @@ impl Estimation<'_> {
     /// pairs these are. Adds to the tally.
     ///
     /// The result depends neither on the number of threads nor on the parts.
-    pub fn go_on(&self, begun: &mut Begun, tally: &Tally) -> u64 {
+    pub fn go_on<V: AsMut<[f32]>>(&self, begun: &mut Begun<V>, tally: &Tally) -> u64 {
         let next = self.tiles_before(&begun.rows).min(begun.tiles + begun.step);
         let start = Instant::now();
-        let pairs = self.fill(begun, begun.tiles..next, tally);
+        let rows = (begun.rows.clone(), begun.values.as_mut());
+        let pairs = self.fill(rows, begun.tiles..next, tally);
         begun.tiles = next;
         if start.elapsed() < STEP {
             begun.step *= 2;
@@ -74,7 +80,7 @@ impl Estimation<'_> {
     }
 
     /// Whether rows are estimated against all tiles.
-    pub fn is_finished(&self, begun: &Begun) -> bool {
+    pub fn is_finished<V>(&self, begun: &Begun<V>) -> bool {
         begun.tiles == self.tiles_before(&begun.rows)
     }
 
@@ -86,8 +92,12 @@ impl Estimation<'_> {
     }
 
     /// Fills what rows have with some of the tiles, and counts these pairs.
-    pub(crate) fn fill(&self, begun: &mut Begun, others: Range<usize>, tally: &Tally) -> u64 {
-        let Begun { rows, values, .. } = begun;
+    pub(crate) fn fill(
+        &self,
+        (rows, values): (Range<usize>, &mut [f32]),
+        others: Range<usize>,
+        tally: &Tally,
+    ) -> u64 {
         let strips = self.tiling.strips.iter();
         let tiles = strips
             .filter(|strip| rows.contains(&strip.patches.start))

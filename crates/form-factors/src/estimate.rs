@@ -165,10 +165,11 @@ impl<'a> Estimation<'a> {
     /// Estimates all pairs.
     pub fn run(&self) -> FormFactors {
         let size = self.mesh.patches.len();
-        let mut all = self.begin(0..size);
+        let mut values = vec![0.0; packed_len(size)];
         let tally = Tally::new(size);
-        self.fill(&mut all, 0..self.tiling.tiles.len(), &tally);
-        let exchange = SymmetricMatrix::new(size, all.values).expect("one value per pair was made");
+        let all = (0..size, &mut values[..]);
+        self.fill(all, 0..self.tiling.tiles.len(), &tally);
+        let exchange = SymmetricMatrix::new(size, values).expect("one value per pair was made");
         self.complete(exchange, &tally)
     }
 

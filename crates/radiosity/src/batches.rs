@@ -83,6 +83,30 @@ impl Finished {
     }
 }
 
+/// All rows at once, in the memory where they stay: batches would be copied.
+pub(crate) fn estimate_in_memory(
+    estimation: &Estimation<'_>,
+    observer: &dyn Observer,
+) -> (Vec<f32>, Tally) {
+    let size = estimation.areas().len();
+    let tally = Tally::new(size);
+    let mut values = vec![0.0; packed_len(size)];
+    let mut rest = &mut values[..];
+    let mut first = 0;
+    let next = iter::from_fn(|| {
+        let rows = estimation.next_rows(first, 0)?;
+        let pairs = packed_len(rows.end) - packed_len(first);
+        first = rows.end;
+        Some(estimation.begin_in(rows, rest.split_off_mut(..pairs)?))
+    });
+    next.par_bridge().for_each(|mut rows: Begun<&mut [f32]>| {
+        while !estimation.is_finished(&rows) {
+            observer.advance(estimation.go_on(&mut rows, &tally));
+        }
+    });
+    (values, tally)
+}
+
 impl<'a> Batches<'a> {
     /// After those that are finished.
     pub(crate) fn after(
@@ -97,20 +121,6 @@ impl<'a> Batches<'a> {
             size: BatchSize::first(),
             time: BatchSize::TIME,
             checkpoint: Instant::now(),
-        }
-    }
-
-    /// All values, in memory.
-    pub(crate) fn into_values(mut self) -> (Vec<f32>, Tally) {
-        let size = packed_len(self.estimation.areas().len());
-        let mut values = Vec::with_capacity(size);
-        loop {
-            let rows = self.estimate();
-            if rows.is_empty() && self.finished.begun.is_empty() {
-                return (values, self.finished.tally);
-            }
-            self.size = self.size.next();
-            rows.iter().for_each(|rows| values.extend_from_slice(rows));
         }
     }
 

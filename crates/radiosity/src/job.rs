@@ -1,7 +1,7 @@
 //! Stage 2 on a real machine: form factors are kept as they are made.
 
 use crate::artifact::{Sources, usable};
-use crate::batches::{Batches, Finished};
+use crate::batches::{Batches, Finished, estimate_in_memory};
 use crate::error::Error;
 use crate::facts::FactorFacts;
 use crate::observer::{Observer, Stage};
@@ -31,8 +31,7 @@ impl Job<'_> {
     fn run_in_memory(&self, estimation: &Estimation<'_>) -> FormFactors {
         self.begin(&self.needs(), 0, estimation);
         let patches = self.mesh.patches.len();
-        let batches = Batches::after(Finished::nothing(patches), estimation, self.observer);
-        let (values, tally) = batches.into_values();
+        let (values, tally) = estimate_in_memory(estimation, self.observer);
         self.observer.end();
         let exchange = SymmetricMatrix::new(patches, values).expect("all rows are made");
         estimation.complete(exchange, &tally)

@@ -69,6 +69,13 @@ fn batches_are_what_is_estimated_at_once() {
     for threads in [1, 2, 7] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let pool = pool.build().unwrap();
+        let (at_once, tally) = pool.install(|| estimate_in_memory(&estimation, &Silent));
+        assert!(at_once == whole.exchange.values(), "{threads} threads");
+        let exchange = radiosity_matrix::SymmetricMatrix::new(mesh.patches.len(), at_once);
+        assert_eq!(
+            estimation.complete(exchange.unwrap(), &tally).rows,
+            whole.rows
+        );
         let mut finished = Finished {
             rows: 0,
             begun: Vec::new(),
