@@ -147,7 +147,7 @@ impl Estimation<'_> {
                 match on_one_wall {
                     true => tell(lane, TileBlock::plain(&tiles[tile].patches, &values)),
                     false => {
-                        others.for_each(|(k, j)| tell(lane, TileBlock::plain(&[j], &[values[k]])))
+                        others.for_each(|(k, j)| tell(lane, TileBlock::plain(&[j], &[values[k]])));
                     }
                 }
             }
