@@ -94,7 +94,7 @@ fn factor_lines(found: &FactorInspection) -> Vec<String> {
     lines.extend(classes.map(|c| indented(&class_line(c, found.patches))));
     lines.push(labelled(
         "closure",
-        "rows by |fronts + backs + nothing - 1|",
+        "rows by |fronts + backs + outside - 1|",
     ));
     lines.extend(histogram(&found.off_by).iter().map(|line| indented(line)));
     lines.extend(
@@ -128,7 +128,7 @@ fn worst_line(row: &WorstRow) -> String {
         .error
         .map_or(String::new(), |error| format!(" +- {error:.1e}"));
     format!(
-        "{:+.1e} in row {}, `{}`: fronts {:.6}{error}, backs {:.4}, nothing {:.4}, both +- {:.0e}",
+        "{:+.1e} in row {}, `{}`: fronts {:.6}{error}, backs {:.4}, outside {:.4}, both +- {:.0e}",
         row.excess,
         row.row,
         row.surface,
@@ -143,7 +143,7 @@ fn solution_line(found: &SolutionInspection) -> String {
     let end = if found.converged {
         ""
     } else {
-        ", more than was asked for"
+        ", not converged"
     };
     let text = format!(
         "{}, {}: residual {:.1e}{end}",

@@ -29,7 +29,7 @@ impl Part {
     ) -> Part {
         let [origin, b, c, d] = *face.polygon.padded_corners();
         let (u, v) = (b - origin, d - origin);
-        debug_assert!(!face.polygon.is_triangle() || c == d);
+        assert!(!face.polygon.is_triangle() || c == d);
         // Across `u`, so that slivers keep their digits.
         let slant = u.dot(v) / u.length_squared();
         let across = v - slant * u;

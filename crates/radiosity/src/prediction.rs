@@ -89,7 +89,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rehearsals_are_short_whatever_is_asked_for() {
+    fn timed_samples_are_short_whatever_is_asked_for() {
         let regular = |points| Estimator::Regular { points };
         assert_eq!(sampled(regular(3)), (regular(3), 1.0));
         assert_eq!(sampled(regular(32)), (regular(16), 16.0));
@@ -105,7 +105,7 @@ mod tests {
 
     /// The same part of the work, whatever the points: of few pairs, each several times.
     #[test]
-    fn few_pairs_of_many_points_are_rehearsed_as_long() {
+    fn few_pairs_of_many_points_are_sampled_as_long() {
         assert_eq!(enough(4000, 1.0), 100);
         assert_eq!(enough(1128, 256.0), 7219);
     }

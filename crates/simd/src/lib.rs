@@ -151,7 +151,7 @@ impl InstructionSet {
         #[cfg(target_arch = "x86_64")]
         {
             let avx2 = is_x86_feature_detected!("avx2");
-            // Every processor that has the last two has the first two.
+            // Every processor that has VL has DQ and BW too, which hold masks of eight lanes.
             let avx512 = is_x86_feature_detected!("avx512f")
                 && is_x86_feature_detected!("avx512vl")
                 && is_x86_feature_detected!("avx512dq")

@@ -21,7 +21,7 @@ fn form_factors_are_described() {
     for part in [
         "no byte is damaged",
         "accurate, tolerance 5e-4; 17 patches of 4 surfaces",
-        "rows by |fronts + backs + nothing - 1|",
+        "rows by |fronts + backs + outside - 1|",
         "worst rows",
         "in row ",
     ] {
