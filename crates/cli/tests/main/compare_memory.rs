@@ -62,7 +62,7 @@ fn pictures_that_do_not_fit_into_memory_are_refused() {
         format!("{plain} --difference d.pfm"),
         format!("{plain} --regions map.png"),
     ] {
-        let limits = (32_000..=72_000).step_by(8_000);
+        let limits = (32_000..=72_000).step_by(4_000);
         let found = limits.map(|kilobytes| limited(&place, kilobytes, &arguments));
         let found: Vec<(i32, String)> = found.collect();
         let refused = found.iter().take_while(|(code, _)| *code == 4).count();

@@ -121,7 +121,18 @@ proptest! {
 /// on, and the others die away at once: the many steps that the first one needs leave them alone.
 #[test]
 fn channels_that_have_converged_rest() {
-    let (size, reflectance) = (100, [0.99, 0.1, 1e-4]);
+    check_resting_channels(0.99);
+}
+
+#[test]
+#[ignore = "slow: some seconds"]
+fn channels_that_have_converged_rest_for_long() {
+    check_resting_channels(0.999);
+}
+
+/// By the reflectance of the channel that converges last.
+fn check_resting_channels(largest: f64) {
+    let (size, reflectance) = (100, [largest, 0.1, 1e-4]);
     let mut case = Case::uniform_enclosure(size, [0.0; 3], reflectance);
     let half = 0.5 / size as f32;
     let row = |i: usize| (0..i).map(move |j| if i - j == 1 { half } else { 0.0 });
