@@ -176,7 +176,7 @@ fn changing_back_finds_the_old_files() {
     let mut bench = Bench::warm();
     bench.project.scene.materials[0].reflectance[1] = 0.5;
     bench.solve();
-    let original = shipped("cornell");
+    let original = shipped("cornell-course");
     bench.project.scene.materials = original.scene.materials;
     assert_eq!(bench.reasons(), none());
 }

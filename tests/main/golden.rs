@@ -99,6 +99,16 @@ fn cornell_triangles() {
 }
 
 #[test]
+fn the_courses_cornell_box() {
+    check("cornell-course", 6, 2);
+}
+
+#[test]
+fn the_courses_triangles() {
+    check("cornell-course-triangles", 4, 2);
+}
+
+#[test]
 fn cornell_closed() {
     check("cornell-closed", 6, 2);
 }

@@ -54,7 +54,7 @@ fn radiosities_agree() {
 /// Over the cells of lit surfaces that do not emit: chi-square; the difference of their power and
 /// its standard error, in percent.
 fn compare_with_table(n: u32, samples: u32) -> (ChiSquare, f64, f64) {
-    let project = shipped("cornell");
+    let project = shipped("cornell-course");
     let scene = &project.scene;
     let patches = subdivide(scene, &Discretization::uniform(n), Context::default());
     let mesh = patches.unwrap().mesh;
@@ -96,7 +96,7 @@ fn compare_with_table(n: u32, samples: u32) -> (ChiSquare, f64, f64) {
 #[ignore = "slow: half a minute"]
 fn pictures_agree() {
     for (filter, passes) in [(PixelFilter::Box, 12), (PixelFilter::Tents, 6)] {
-        let mut project = shipped("cornell");
+        let mut project = shipped("cornell-course");
         project.params.image.filter = filter;
         let (scene, image) = (&project.scene, &project.params.image);
         let camera = scene.camera.as_ref().unwrap();

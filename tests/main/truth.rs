@@ -1,7 +1,7 @@
 //! The whole chain against path-traced truth.
 
 use radiosity::compare::Table;
-use radiosity::form_factors::Mode;
+use radiosity::form_factors::Params as FormFactorParams;
 use radiosity::geometry::{Divisions, PixelFilter};
 use radiosity::renderer::Shading;
 use radiosity::stages::PatchLight;
@@ -13,7 +13,7 @@ use radiosity_tests::{BOTH, Chain, picture_errors, radiosity_errors, shipped, ta
 /// must be better than the course's, which has 5.9 %.
 #[test]
 fn the_course_is_reproduced() {
-    let project = shipped("cornell");
+    let project = shipped("cornell-course");
     let chain = Chain::of(&project);
     let light = chain.light();
     let errors = radiosity_errors(chain.patches, &light);
@@ -70,7 +70,6 @@ fn smaller_patches_leave_less() {
 /// With so many patches along each edge.
 fn accurate_cornell(n: u32) -> Project {
     let mut project = shipped("cornell");
-    project.params.form_factors.mode = Mode::Accurate;
     project.params.form_factors.tolerance = 2e-3;
     project.params.discretization.default = Divisions::uniform(n);
     project
@@ -114,7 +113,6 @@ fn pictures_of_many_patches_are_nearer_the_truth() {
 /// exact direct light, and the bias of that.
 fn near_the_truth(most: &[(u32, f64, f64, f64)]) {
     let mut project = shipped("cornell");
-    project.params.form_factors.mode = Mode::Accurate;
     project.params.form_factors.tolerance = 2e-3;
     project.params.image.filter = PixelFilter::Box;
     for &(n, most_smooth, most_exact, bias) in most {
@@ -144,7 +142,7 @@ fn near_the_truth(most: &[(u32, f64, f64, f64)]) {
 #[ignore = "slow: ten seconds"]
 fn gathered_light_is_nearer() {
     let mut project = shipped("cornell");
-    project.params.form_factors.mode = Mode::Accurate;
+    project.params.form_factors.tolerance = FormFactorParams::default().tolerance;
     project.params.image.filter = PixelFilter::Box;
     let chain = Chain::of(&project);
     let light = chain.light();
@@ -160,7 +158,7 @@ fn gathered_light_is_nearer() {
 /// and much closer than the constant one.
 #[test]
 fn triangles_are_as_good_as_rectangles() {
-    let project = shipped("cornell-triangles");
+    let project = shipped("cornell-course-triangles");
     let chain = Chain::of(&project);
     let pictures = chain.pictures(&chain.light(), &BOTH);
     let away_from_edges = |image| picture_errors(image, PixelFilter::Tents, "0-2");

@@ -26,7 +26,7 @@ const TIMES_THE_COURSE: f64 = 25.0;
 const WHOLE_RUN: f64 = 110.0;
 
 pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
-    let project = Project::open(&root.join("scenes/cornell.toml"))?;
+    let project = Project::open(&root.join("scenes/cornell-course.toml"))?;
     let mut figures = beside_the_course(&project)?;
     show(&figures, json);
     figures.clear();

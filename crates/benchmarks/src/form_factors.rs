@@ -40,7 +40,7 @@ const TOLERANCE: f64 = 0.01;
 const CONVERGED: f64 = 3e-5;
 
 pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
-    let mut project = Project::open(&root.join("scenes/cornell.toml"))?;
+    let mut project = Project::open(&root.join("scenes/cornell-course.toml"))?;
     let mesh = cut(&project.scene, SIZES[0].0)?;
     let baseline = Baseline::new(&mesh);
     let peak = machine::peak();

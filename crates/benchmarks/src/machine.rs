@@ -55,7 +55,7 @@ pub(crate) fn most_memory() -> Option<f64> {
     Some(1024.0 * kilobytes)
 }
 
-/// The seconds that each instruction set of the machine takes for the form factors of `cornell` by
+/// The seconds that each instruction set of the machine takes for the form factors of `cornell-course` by
 /// the regular rule: the best of several processes, since each keeps to one set.
 pub(crate) fn seconds_by_set(divisions: u32) -> Vec<(&'static str, Option<f64>)> {
     let best = |set: InstructionSet| {
@@ -76,9 +76,9 @@ fn seconds_on(set: InstructionSet, divisions: u32) -> Option<f64> {
     printed.trim().parse().ok()
 }
 
-/// What the form factors of `cornell` take here and now.
+/// What the form factors of `cornell-course` take here and now.
 pub(crate) fn print_regular_seconds(root: &Path, divisions: u32) -> Result<(), Error> {
-    let Project { scene, params, .. } = Project::open(&root.join("scenes/cornell.toml"))?;
+    let Project { scene, params, .. } = Project::open(&root.join("scenes/cornell-course.toml"))?;
     let patches = subdivide(
         &scene,
         &Discretization::uniform(divisions),

@@ -50,7 +50,7 @@ pub(super) type Reasons = (Option<String>, Option<String>);
 impl Bench {
     /// With everything cached.
     pub(super) fn warm() -> Bench {
-        let mut project = shipped("cornell");
+        let mut project = shipped("cornell-course");
         project.params.discretization.default = Divisions::uniform(3);
         let bench = Bench {
             folder: TempDir::new().unwrap(),

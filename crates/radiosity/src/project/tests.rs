@@ -184,6 +184,8 @@ fn shipped_scenes_are_good_and_open_with_a_comment() {
     for name in [
         "cornell",
         "cornell-closed",
+        "cornell-course",
+        "cornell-course-triangles",
         "cornell-triangles",
         "furnace",
         "knot",
