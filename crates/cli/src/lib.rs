@@ -30,6 +30,7 @@ mod run;
 mod save;
 mod scene_args;
 mod series;
+mod shipped;
 mod show_args;
 mod signals;
 mod site;

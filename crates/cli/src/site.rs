@@ -1,17 +1,19 @@
 //! Where things are kept: in a checkout, or around an installed command.
 
 use super::scene_args::OutsideArgs;
+use super::shipped;
 use super::terminal::tell;
 use crate::error::Error;
 use etcetera::{BaseStrategy, choose_base_strategy};
 use radiosity::Project;
+use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 /// The folders that a command uses unless told otherwise.
 #[derive(Clone, Debug)]
 pub struct Site {
-    /// Scenes that can be called by name.
+    /// Scenes that can be called by name, beside those in the program.
     pub scenes: PathBuf,
     /// Cached artifacts.
     pub cache: PathBuf,
@@ -51,19 +53,26 @@ impl Site {
 
     /// Loads a scene by the path of its file, or by its name.
     pub(crate) fn load(&self, wanted: &Path, outside: OutsideArgs) -> Result<Project, Error> {
-        let project = Project::open_with(&self.path_of(wanted)?, outside.mesh_files())?;
+        let project = match self.path_of(wanted) {
+            Some(path) => Project::open_with(&path, outside.mesh_files())?,
+            None => match shipped::open(wanted) {
+                Some(project) => project?,
+                None => return Err(self.no_scene(wanted)),
+            },
+        };
         for note in &project.notes {
             tell(&format!("note: {note}"));
         }
         Ok(project)
     }
 
-    fn path_of(&self, wanted: &Path) -> Result<PathBuf, Error> {
+    /// The file of a scene; there may be none of this name.
+    fn path_of(&self, wanted: &Path) -> Option<PathBuf> {
         let is_path = wanted.components().count() > 1
             || wanted.extension().is_some_and(is_of_scene)
             || wanted.is_file();
         if is_path {
-            return Ok(wanted.to_owned());
+            return Some(wanted.to_owned());
         }
         let with_ending = |ending| {
             let mut name = self.scenes.join(wanted).into_os_string();
@@ -72,33 +81,27 @@ impl Site {
             PathBuf::from(name)
         };
         let mut named = ENDINGS.into_iter().map(with_ending);
-        if let Some(named) = named.find(|path| path.is_file()) {
-            return Ok(named);
-        }
-        Err(Error::with_help(
-            format!("there is no scene `{}`", wanted.display()),
-            self.what_there_is(),
-        ))
+        named.find(|path| path.is_file())
     }
 
-    fn what_there_is(&self) -> String {
+    fn no_scene(&self, wanted: &Path) -> Error {
+        let names = self.names().join(", ");
+        Error::with_help(
+            format!("there is no scene `{}`", wanted.display()),
+            format!("give the path of a scene file (.toml, .vs3), or a name: {names}"),
+        )
+    }
+
+    /// What scenes can be called by name.
+    fn names(&self) -> Vec<String> {
         let entries = std::fs::read_dir(&self.scenes).into_iter().flatten();
-        let mut names: Vec<String> = entries
-            .filter_map(|entry| {
-                let path = entry.ok()?.path();
-                let is_scene = is_of_scene(path.extension()?);
-                is_scene.then(|| path.file_stem()?.to_str().map(str::to_owned))?
-            })
-            .collect();
-        names.sort();
-        let folder = self.scenes.display();
-        if names.is_empty() {
-            format!("give the path of a scene file; there are none in {folder}")
-        } else {
-            format!(
-                "give the path of a scene file, or a name: {}",
-                names.join(", ")
-            )
-        }
+        let in_folder = entries.filter_map(|entry| {
+            let path = entry.ok()?.path();
+            let is_scene = is_of_scene(path.extension()?);
+            is_scene.then(|| path.file_stem()?.to_str().map(str::to_owned))?
+        });
+        let shipped = shipped::names().map(str::to_owned);
+        let names: BTreeSet<String> = in_folder.chain(shipped).collect();
+        names.into_iter().collect()
     }
 }

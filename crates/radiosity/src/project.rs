@@ -58,7 +58,8 @@ impl Project {
         Project::parse_with(path, text, MeshFiles::InFolder)
     }
 
-    fn parse_with(path: &Path, text: &str, mesh_files: MeshFiles) -> Result<Project, Error> {
+    /// [`Project::parse`] for meshes elsewhere.
+    pub fn parse_with(path: &Path, text: &str, mesh_files: MeshFiles) -> Result<Project, Error> {
         let Loaded {
             scene,
             mut tables,

@@ -1,7 +1,7 @@
 //! The one place that opens the files that a scene is made of.
 
 use std::fs::{File, metadata};
-use std::io::{Error, Read, Result};
+use std::io::{Error, ErrorKind, Read, Result};
 use std::path::Path;
 
 /// Where the meshes of a scene may be.
@@ -12,6 +12,9 @@ pub enum MeshFiles {
     InFolder,
     /// Wherever the scene says.
     Anywhere,
+    /// These alone: their paths, relative to the scene's folder, and their bytes. No file is
+    /// opened.
+    InMemory(&'static [(&'static str, &'static [u8])]),
 }
 
 /// The most bytes of a file that are read: ten times what the most patches take as a mesh.
@@ -49,8 +52,21 @@ fn read_at_most(most: u64, file: impl Read, expected: u64) -> Result<Vec<u8>> {
 }
 
 impl MeshFiles {
+    /// The bytes of the file that a scene in a folder calls so.
+    pub(crate) fn read(self, folder: &Path, file: &str) -> Result<Vec<u8>> {
+        let MeshFiles::InMemory(files) = self else {
+            return read(&folder.join(file));
+        };
+        let found = files.iter().find(|(name, _)| *name == file);
+        let (_, bytes) = found.ok_or(ErrorKind::NotFound)?;
+        Ok(bytes.to_vec())
+    }
+
     /// Whether a file is where meshes may be. One that does not exist is: reading it says so.
     pub(crate) fn include(self, path: &Path, folder: &Path) -> bool {
+        if let MeshFiles::InMemory(_) = self {
+            return true;
+        }
         let folder = match folder.as_os_str().is_empty() {
             true => Path::new("."),
             false => folder,

@@ -43,7 +43,7 @@ pub fn read(path: &Path) -> Result<String, SceneError> {
     })?;
     if let Some(format) = foreign(&bytes) {
         let title = format!("the scene is {}, which is not read", format.name);
-        return Err(SceneError::of_file(path, &title, format.help));
+        return Err(SceneError::of_file(path, &title, &format.help_for_scenes()));
     }
     // Comments and names of View3D may be in any encoding.
     String::from_utf8(bytes).or_else(|error| match ends_in(path, "vs3") {

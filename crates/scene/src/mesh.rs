@@ -1,7 +1,6 @@
 //! `mesh = { … }` of `[[surfaces]]`.
 
 use crate::error::Help;
-use crate::input;
 use crate::obj;
 use crate::signature::foreign;
 use crate::source::{Complaint, SceneError, Source};
@@ -33,8 +32,8 @@ impl SurfaceReader<'_> {
             let complaint = Complaint::new(title, "this file").typed_help(Help::MeshFolder);
             return Err(self.source.error(table.file.span(), &complaint));
         }
-        let bytes = input::read(&path).map_err(|error| {
-            let file = table.file.get_ref();
+        let file = table.file.get_ref();
+        let bytes = self.mesh_files.read(self.folder, file).map_err(|error| {
             let complaint = Complaint::new(format!("cannot read the mesh `{file}`: {error}"), "")
                 .suggest(file, self.obj_files_near(file).iter().map(String::as_str));
             self.source.error(table.file.span(), &complaint)

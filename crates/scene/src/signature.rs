@@ -1,5 +1,7 @@
 //! Files that are neither scenes nor OBJ meshes, told by how they begin.
 
+use std::borrow::Cow;
+
 /// What a file is instead.
 #[derive(Clone, Copy)]
 pub(crate) struct Foreign {
@@ -11,8 +13,9 @@ pub(crate) struct Foreign {
 const ENCODED: &str = "save it as UTF-8";
 const PACKED: &str = "unpack it";
 const EXPORT: &str = "export it as Wavefront OBJ (.obj): most modelling programs can";
+const PICTURE: &str = "scenes are read from TOML (.toml) and View3D (.vs3), meshes from OBJ (.obj)";
 
-const SIGNATURES: [(&[u8], &str, &str); 19] = [
+const SIGNATURES: [(&[u8], &str, &str); 27] = [
     (b"\xff\xfe", "text in UTF-16", ENCODED),
     (b"\xfe\xff", "text in UTF-16", ENCODED),
     (b"\x1f\x8b", "compressed by gzip", PACKED),
@@ -35,8 +38,29 @@ const SIGNATURES: [(&[u8], &str, &str); 19] = [
     (b"#VRML V", "a VRML file", EXPORT),
     (b"#usda 1", "a USD file", EXPORT),
     (b"PXR-USDC", "a USD file", EXPORT),
+    (b"\x89PNG", "a PNG picture", PICTURE),
+    (b"\xff\xd8\xff", "a JPEG picture", PICTURE),
+    (b"GIF8", "a GIF picture", PICTURE),
+    (b"v/1\x01", "an OpenEXR picture", PICTURE),
+    (b"#?RADIANCE", "a Radiance HDR picture", PICTURE),
+    (b"P3\n", "a PPM picture", PICTURE),
+    (b"P6\n", "a PPM picture", PICTURE),
+    (b"PF\n", "a PFM picture", PICTURE),
     (b"<", "an XML file (COLLADA, X3D or another)", EXPORT),
 ];
+
+impl Foreign {
+    /// The same where a scene is wanted, not a mesh.
+    pub(crate) fn help_for_scenes(&self) -> Cow<'static, str> {
+        if self.help == EXPORT {
+            let help = format!(
+                "{EXPORT}; then name it in a scene file (.toml): mesh = {{ file = \"NAME.obj\" }}"
+            );
+            return help.into();
+        }
+        self.help.into()
+    }
+}
 
 /// Bytes of a file in which its format shows.
 const LOOKED_AT: usize = 4096;
