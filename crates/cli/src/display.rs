@@ -34,7 +34,7 @@ fn display(
 ) -> Result<(), Error> {
     let dimming = args.lights.dimming(scene)?;
     let folder = args.display.output.as_ref().unwrap_or(&site.output);
-    let terminal = Terminal::new(args.estimate.json);
+    let terminal = Terminal::new(args.estimate.output);
     let store = store(&args.estimate, site);
     let context = Context::new(store.as_ref(), &terminal);
     let patches = subdivide(scene, &params.discretization, context)?;
@@ -60,7 +60,7 @@ fn display(
         factors: &factors,
         looks: &looks,
         shots: &shots,
-        live: Live::new(!args.estimate.json && !args.display.no_live),
+        live: Live::new(!args.estimate.output.json && !args.display.no_live),
         folder: Folder::new(folder, &args.display.format, &solved, params, &dimming),
         sheet: Sheet::default(),
     };

@@ -35,6 +35,19 @@ pub struct EstimateArgs {
     /// Threads to use [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub threads: Option<u32>,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "a comment here would replace the help text")]
+    pub output: OutputArgs,
+}
+
+/// What is printed.
+#[derive(Clone, Copy, Debug, Args)]
+#[command(next_help_heading = "Run")]
+pub struct OutputArgs {
+    /// Print more: what rows of form factors sum to, how the solver converges, names of cached
+    /// files
+    #[arg(long, short)]
+    pub verbose: bool,
     /// Print one JSON object on standard output, and everything else on standard error
     #[arg(long)]
     pub json: bool,

@@ -21,7 +21,7 @@ pub(super) fn run(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
     } = args.scene.load(site)?;
     args.estimate.apply(&mut params.form_factors);
     params.check().map_err(radiosity::Error::from)?;
-    let terminal = Terminal::new(args.estimate.json);
+    let terminal = Terminal::new(args.estimate.output);
     with_threads(args.estimate.threads, || {
         let store = store(&args.estimate, site);
         let context = Context::new(store.as_ref(), &terminal);

@@ -11,6 +11,7 @@ mod compare_args;
 mod display;
 mod error;
 mod estimate_args;
+mod fit;
 mod form_factors;
 mod image_args;
 mod input;
@@ -45,7 +46,7 @@ pub use args::{
 };
 pub use cache_args::{CacheAction, CacheCommand, CleanArgs};
 pub use compare_args::CompareCommand;
-pub use estimate_args::{CacheArgs, EstimateArgs};
+pub use estimate_args::{CacheArgs, EstimateArgs, OutputArgs};
 pub use image_args::{DisplayArgs, ImageArgs};
 pub use light_args::LightArgs;
 pub use reference_args::ReferenceCommand;

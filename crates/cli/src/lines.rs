@@ -114,7 +114,10 @@ pub(crate) fn indented(text: &str) -> String {
     labelled("", text)
 }
 
+/// Columns before the text of a line, in which its label stands.
+pub(crate) const LABEL_WIDTH: usize = 14;
+
 /// Text with a label in the first column.
 pub(crate) fn labelled(label: &str, text: &str) -> String {
-    format!("{label:<14}{text}")
+    format!("{label:<LABEL_WIDTH$}{text}")
 }

@@ -2,10 +2,10 @@
 
 use crate::error::Error;
 use crate::lines::{
-    class_line, closed_line, closure_line, error_line, indented, missed_line, row_line, scene_line,
-    unbalanced_lines,
+    class_line, closed_line, closure_line, error_line, indented, labelled, missed_line, row_line,
+    scene_line, unbalanced_lines,
 };
-use crate::solve_report::{SolveReport, solution_lines};
+use crate::solve_report::{SolveReport, solution_details, solution_lines};
 use crate::terminal::{Terminal, say_json};
 use radiosity::darkness;
 use radiosity::openings;
@@ -90,22 +90,20 @@ impl<'a> Report<'a> {
         let patches = factors.patches();
         let (scene, mesh) = (patches.scene(), &patches.mesh);
         self.stage_line("form factors", origin);
-        self.terminal.line(&indented(&row_line(rows)));
-        let errors = error_line(rows).into_iter().chain(missed_line(rows));
-        for line in errors.chain(closure_line(rows)) {
+        let closed = scene.closed.then(|| closed_line(rows));
+        let classes = rows.classes.as_ref();
+        let classes = classes.map(|classes| class_line(classes, mesh.patches.len()));
+        let details = [Some(row_line(rows)), error_line(rows), closed, classes];
+        for line in details.into_iter().flatten() {
+            self.terminal.detail(&indented(&line));
+        }
+        for line in missed_line(rows).into_iter().chain(closure_line(rows)) {
             self.terminal.line(&indented(&line));
         }
-        if scene.closed {
-            self.terminal.line(&indented(&closed_line(rows)));
-            if openings::show_in_rows(rows) {
-                for line in openings::warnings(scene, mesh) {
-                    self.terminal.line(&indented(&line));
-                }
+        if scene.closed && openings::show_in_rows(rows) {
+            for line in openings::warnings(scene, mesh) {
+                self.terminal.line(&indented(&line));
             }
-        }
-        if let Some(classes) = &rows.classes {
-            let line = class_line(classes, mesh.patches.len());
-            self.terminal.line(&indented(&line));
         }
         if rows.excessive > 0
             && let Some(weakness) = factors.known_weakness()
@@ -113,8 +111,8 @@ impl<'a> Report<'a> {
             let count = mesh.patches.len() as u64;
             let (sum, patch) = rows.largest;
             self.terminal.line(&indented(&format!(
-                "warning: {} of {} rows sum to more than 1.001, the worst to {sum:.3} (in `{}`): \
-                 {weakness}",
+                "note: the form factors from {} of {} patches sum to more than 1, to {sum:.3} at \
+                 worst (in `{}`): {weakness}",
                 grouped(rows.excessive),
                 grouped(count),
                 patches.surface_name(patch as usize),
@@ -144,6 +142,9 @@ impl<'a> Report<'a> {
     ) {
         self.stage_line("solution", &solved.origin);
         let light = darkness::light_lines(patches, dimming, energy);
+        for line in solution_details(solved, energy) {
+            self.terminal.detail(&indented(&line));
+        }
         for line in solution_lines(solved, energy).into_iter().chain(light) {
             self.terminal.line(&indented(&line));
         }
@@ -152,8 +153,8 @@ impl<'a> Report<'a> {
 
     pub(crate) fn display(&mut self, display: DisplayReport) {
         let seconds = format!("{:.2} s", display.seconds);
-        self.terminal
-            .line(&format!("{:<14}{:<36}{seconds:>9}", "pictures", "rendered"));
+        let line = labelled("pictures", &format!("{:<36}{seconds:>9}", "rendered"));
+        self.terminal.line(&line);
         self.json.stages.display = Some(display);
     }
 
@@ -193,10 +194,12 @@ impl<'a> Report<'a> {
             How::Computed(reason) => format!("computed ({reason})"),
             How::NotNeeded => "not needed".to_owned(),
         };
-        let file = origin.file.as_ref().and_then(|file| file.file_name());
-        let file = file.unwrap_or_default().to_string_lossy();
         let (seconds, size) = (format!("{:.2} s", origin.seconds), bytes(origin.bytes));
-        let line = format!("{stage:<14}{how:<36}{seconds:>9}{size:>9}  {file}");
-        self.terminal.line(line.trim_end());
+        let line = labelled(stage, &format!("{how:<36}{seconds:>9}{size:>9}"));
+        self.terminal.line(&line);
+        if let Some(file) = &origin.file {
+            let line = format!("kept in {}", file.display());
+            self.terminal.detail(&indented(&line));
+        }
     }
 }

@@ -69,7 +69,7 @@ fn solve(args: &SolveCommand, site: &Site, is_anew: bool) -> Result<(), Error> {
     for path in args.export.iter().chain(&args.plot) {
         check_folder_of(path)?;
     }
-    let terminal = Terminal::new(args.estimate.json);
+    let terminal = Terminal::new(args.estimate.output);
     with_threads(args.estimate.threads, || {
         let store = store(&args.estimate, site);
         let context = Context::new(store.as_ref(), &terminal);

@@ -83,11 +83,30 @@ pub(crate) fn solution_lines(solved: &Solved<'_>, energy: &Energy) -> Vec<String
     let report = &solved.solution.report;
     let mut lines = vec![convergence_line(report)];
     lines.extend(energy_line(energy));
+    if energy.imbalance() > UNBALANCED {
+        lines.extend(balance_line(energy));
+    }
     if !report.converged {
         lines.push(warning(report));
     }
     lines
 }
+
+/// And for those who want to know more.
+pub(crate) fn solution_details(solved: &Solved<'_>, energy: &Energy) -> Vec<String> {
+    let report = &solved.solution.report;
+    let relaxation = report
+        .relaxation
+        .map_or(String::new(), |factor| format!("relaxation {factor:.2}, "));
+    let mut lines = vec![format!("{relaxation}residual {:.1e}", report.residual)];
+    if energy.imbalance() <= UNBALANCED {
+        lines.extend(balance_line(energy));
+    }
+    lines
+}
+
+/// Of the light, where more is unaccounted for everybody is told.
+const UNBALANCED: f64 = 0.005;
 
 /// How it was reached.
 fn convergence_line(report: &Convergence) -> String {
@@ -97,15 +116,11 @@ fn convergence_line(report: &Convergence) -> String {
         Method::ConjugateGradients => "conjugate-gradient step",
     };
     let plural = if passes == 1 { "" } else { "s" };
-    let relaxation = match report.relaxation {
-        Some(factor) if factor != 1.0 => format!(" (relaxation {factor:.2})"),
-        _ => String::new(),
+    let accuracy = match report.error {
+        Some(error) => format!("estimated error {error:.0e}"),
+        None => format!("residual {:.0e}", report.residual),
     };
-    let error = report.error.map_or(String::new(), |error| {
-        format!(", estimated error {error:.0e}")
-    });
-    let residual = report.residual;
-    format!("{passes} {name}{plural}{relaxation}: residual {residual:.1e}{error}")
+    format!("{passes} {name}{plural}, {accuracy}")
 }
 
 /// Where the power goes, over all channels.
@@ -114,12 +129,22 @@ fn energy_line(energy: &Energy) -> Option<String> {
     let percent = |part: [f64; 3]| 100.0 * part.iter().sum::<f64>() / whole;
     (whole > 0.0).then(|| {
         format!(
-            "of the light, {:.1} % is absorbed, {:.1} % reaches back faces, {:.1} % leaves the \
-             scene; energy balance {:+.2} %",
+            "of the light, {:.1} % is absorbed, {:.1} % leaves the scene, {:.1} % reaches back faces",
             percent(energy.absorbed),
-            percent(energy.to_backs),
             percent(energy.to_background),
-            percent(energy.missing()),
+            percent(energy.to_backs),
+        )
+    })
+}
+
+/// What the parts sum to, over all channels.
+fn balance_line(energy: &Energy) -> Option<String> {
+    let sum = |of: [f64; 3]| of.iter().sum::<f64>();
+    let share = sum(energy.missing()) / sum(energy.emitted);
+    share.is_finite().then(|| {
+        format!(
+            "the three sum to {:.2} %; what is off 100 % is an error of the form factors",
+            100.0 * (1.0 - share)
         )
     })
 }

@@ -3,6 +3,8 @@
 
 use super::printable;
 use crate::error::Error;
+use crate::estimate_args::OutputArgs;
+use crate::fit::Stream;
 use crate::lines::indented;
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use radiosity::{Observer, Stage};
@@ -12,7 +14,7 @@ use std::sync::Mutex;
 
 /// Prints a line on standard output.
 pub(crate) fn say(text: &str) -> Result<(), Error> {
-    print(&printable::line(text)).map_err(unprintable)
+    print(&Stream::Output.fit(&printable::line(text))).map_err(unprintable)
 }
 
 /// Prints a JSON object on a line of standard output.
@@ -23,7 +25,8 @@ pub(crate) fn say_json(object: &impl Serialize) -> Result<(), Error> {
 
 /// Prints lines on standard error, whether anybody reads them or not.
 pub(crate) fn tell(text: &str) {
-    let _ = writeln!(io::stderr(), "{}", printable::lines(text));
+    let text = Stream::Error.fit(&printable::lines(text));
+    let _ = writeln!(io::stderr(), "{text}");
 }
 
 /// That nobody reads standard output any more (`| head`) is no error.
@@ -46,14 +49,16 @@ pub(crate) struct Terminal {
     failure: Mutex<Option<io::Error>>,
     /// Whether lines for people go to standard error, to leave standard output to JSON.
     pub(crate) json: bool,
+    is_verbose: bool,
 }
 
 impl Terminal {
-    pub(crate) fn new(json: bool) -> Terminal {
+    pub(crate) fn new(args: OutputArgs) -> Terminal {
         Terminal {
             bar: Mutex::new(None),
             failure: Mutex::new(None),
-            json,
+            json: args.json,
+            is_verbose: args.verbose,
         }
     }
 
@@ -70,9 +75,16 @@ impl Terminal {
     pub(crate) fn line(&self, text: &str) {
         let text = printable::line(text);
         if self.json {
-            let _ = writeln!(io::stderr(), "{text}");
-        } else if let Err(error) = print(&text) {
+            let _ = writeln!(io::stderr(), "{}", Stream::Error.fit(&text));
+        } else if let Err(error) = print(&Stream::Output.fit(&text)) {
             self.failure().get_or_insert(error);
+        }
+    }
+
+    /// A line for those who want to know more.
+    pub(crate) fn detail(&self, text: &str) {
+        if self.is_verbose {
+            self.line(text);
         }
     }
 
@@ -128,7 +140,7 @@ impl Observer for Terminal {
     }
 
     fn note(&self, message: &str) {
-        let text = printable::line(&indented(message));
+        let text = Stream::Error.fit(&printable::line(&indented(message)));
         let print = || {
             let _ = writeln!(io::stderr(), "{text}");
         };

@@ -17,7 +17,7 @@ const SAMPLE_ONE_IN: u64 = 40;
 const MOST_POINTS: u32 = 16;
 const MOST_POINT_PAIRS: u32 = 4096;
 
-/// Patches, pairs, memory, disk and time of an estimation of which so many pairs are left, the
+/// Pairs, time, memory and disk of an estimation of which so many pairs are left, the
 /// time from a timed sample; `None` if it will be over soon.
 pub(crate) fn prediction(
     needs: &Needs,
@@ -33,14 +33,15 @@ pub(crate) fn prediction(
     let smaller = (factor > 1.0).then(|| Estimation::new(job.mesh, estimator));
     let estimation = smaller.as_ref().unwrap_or(estimation);
     let seconds = factor * left as f64 * seconds_per_pair(estimation, enough(left, factor));
-    Some(format!(
-        "{} patches, {} pairs: {} of memory, {} of disk, {}",
-        grouped(needs.patches as u64),
-        grouped(needs.pairs),
-        bytes(needs.memory),
-        bytes(needs.disk),
-        duration(seconds),
-    ))
+    (seconds >= 1.0).then(|| {
+        format!(
+            "{} pairs of patches: {}, {} of memory, {} of disk",
+            grouped(needs.pairs),
+            duration(seconds),
+            bytes(needs.memory),
+            bytes(needs.disk),
+        )
+    })
 }
 
 /// An estimator that takes no longer than a timed sample should, and how many times as long the

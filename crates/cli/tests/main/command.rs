@@ -224,6 +224,23 @@ fn check_computes_nothing() {
     assert!(!place.path("out").exists() && !place.path("platform-cache").exists());
 }
 
+/// Statistics of rows, convergence and names of files are for those who ask.
+#[test]
+fn more_is_printed_on_request() {
+    let place = Place::new();
+    let short = place.succeed("render room.toml --cache c");
+    let long = place.succeed("render room.toml --cache c --verbose");
+    for detail in [
+        "of a patch's light",
+        "the errors of a row",
+        "residual ",
+        "kept in ",
+    ] {
+        assert!(!short.contains(detail), "{short}");
+        assert!(long.contains(detail), "{detail} in {long}");
+    }
+}
+
 #[test]
 fn nothing_but_text_is_printed_where_there_is_no_terminal() {
     let place = Place::new();
