@@ -5,8 +5,8 @@
 //! enlarged differences around grey) in `target/golden/`.
 
 use radiosity::geometry::Divisions;
-use radiosity::image::{PictureFormat, Rgb8Image, ToneMap, Transfer, encode};
-use radiosity::params::NumberOrWord;
+use radiosity::image::{PictureFormat, Rgb8Image, Transfer, encode};
+use radiosity::{expose, render};
 use radiosity_tests::{BOTH, Chain, in_checkout, shipped};
 use std::path::Path;
 
@@ -14,32 +14,26 @@ use std::path::Path;
 /// powers of the mathematics library may differ in their last digit and flip a rounding.
 const TOLERANCE: i32 = 1;
 
-const TRANSFER: Transfer = Transfer::Gamma(2.2);
-
 fn check(scene: &str, divisions: u32, points: u32) {
     let mut project = shipped(scene);
     project.params.discretization.default = Divisions::uniform(divisions);
     project.params.form_factors.points = points;
     (project.params.image.width, project.params.image.height) = (96, 72);
     let chain = Chain::of(&project);
-    let light = &chain.light();
-    let pictures = chain.pictures(light, &BOTH);
-    let exposure = project.params.image.exposure.number().unwrap();
-    let tone = ToneMap::clamped(exposure, TRANSFER);
-    compare(
-        &format!("{}-constant", project.scene.name),
-        &tone.apply(&pictures[0]),
-    );
-    compare(
-        &format!("{}-smooth", project.scene.name),
-        &tone.apply(&pictures[1]),
-    );
+    let camera = project.scene.first_camera().unwrap();
+    let light = chain.light();
+    let image = expose(chain.patches, &light, &[camera], &project.params.image);
+    let pictures = render(chain.patches, &light, &camera, &image, &BOTH).unwrap();
+    for (picture, shading) in pictures.iter().zip(["constant", "smooth"]) {
+        let name = format!("{}-{shading}", project.scene.name);
+        compare(&name, &image.tone_map().apply(picture), image.gamma);
+    }
 }
 
-fn compare(name: &str, got: &Rgb8Image) {
+fn compare(name: &str, got: &Rgb8Image, transfer: Transfer) {
     let path = in_checkout("tests/golden").join(format!("{name}.png"));
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        save(&path, got);
+        save(&path, got, transfer);
         return;
     }
     let expected = load(&path);
@@ -64,13 +58,17 @@ fn compare(name: &str, got: &Rgb8Image) {
         ("expected", &expected),
         ("difference", &difference),
     ] {
-        save(&folder.join(format!("{name}-{kind}.png")), picture);
+        save(
+            &folder.join(format!("{name}-{kind}.png")),
+            picture,
+            transfer,
+        );
     }
     panic!("{name} differs by {worst} levels: see {}", folder.display());
 }
 
-fn save(path: &Path, picture: &Rgb8Image) {
-    std::fs::write(path, encode(picture, PictureFormat::Png(TRANSFER), &[])).unwrap();
+fn save(path: &Path, picture: &Rgb8Image, transfer: Transfer) {
+    std::fs::write(path, encode(picture, PictureFormat::Png(transfer), &[])).unwrap();
 }
 
 fn load(path: &Path) -> Rgb8Image {

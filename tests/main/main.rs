@@ -6,6 +6,7 @@
 mod caching;
 mod closure;
 mod energy;
+mod exposure;
 mod golden;
 mod oracle;
 mod physics;

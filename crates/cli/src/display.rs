@@ -9,8 +9,10 @@ use super::site::Site;
 use super::terminal::Terminal;
 use crate::error::Error;
 use crate::report::{DisplayReport, Report};
+use radiosity::geometry::Camera;
+use radiosity::params::NumberOrWord;
 use radiosity::scene::Scene;
-use radiosity::{Context, Params, Project, estimate, subdivide};
+use radiosity::{Context, Params, Project, estimate, expose, subdivide};
 use std::time::Instant;
 
 pub(super) fn run(args: &DisplayCommand, site: &Site) -> Result<(), Error> {
@@ -54,9 +56,11 @@ fn display(
     let light = solved.relight(&dimming)?;
     report.solution(&solved, &patches, &dimming, &light.energy);
     let start = Instant::now();
+    let cameras: Vec<Camera> = shots.iter().map(|shot| shot.camera).collect();
+    let image = expose(&patches, &light, &cameras, &params.image);
     let mut series = Series {
         args: &args.display,
-        params: &params.image,
+        params: &image,
         factors: &factors,
         looks: &looks,
         shots: &shots,
@@ -65,8 +69,10 @@ fn display(
         sheet: Sheet::default(),
     };
     series.take(&light)?;
+    let has_exposure = looks.iter().any(|look| !look.is_number());
     report.display(DisplayReport {
         seconds: start.elapsed().as_secs_f64(),
+        exposure: image.exposure.number().filter(|_| has_exposure),
     });
     report.outputs(series.folder.written);
     report.finish()

@@ -35,8 +35,9 @@ pub struct ImageArgs {
     /// How samples are spread around pixels and their parts
     #[arg(long, value_parser = choice::<PixelFilter>(&FILTERS))]
     pub filter: Option<PixelFilter>,
-    /// Factor from radiance to brightness, or auto: 98 % of the lit pixels of each picture are then
-    /// less bright than a screen
+    /// Factor from radiance to brightness, or auto: one for all pictures of the run, by which 98 %
+    /// of what they show, lamps left out, are less bright than 0.8 of a screen [default: the
+    /// scene's, or auto]
     #[arg(
         long,
         value_name = "X|auto",
@@ -47,7 +48,7 @@ pub struct ImageArgs {
     /// What becomes of what is brighter than a screen
     #[arg(long, value_parser = choice::<Curve>(&TONES))]
     pub tone: Option<Curve>,
-    /// Exponent of the screen, or srgb
+    /// Exponent of the screen, or srgb [default: the scene's, or srgb]
     #[arg(
         long,
         value_name = "X|srgb",
@@ -77,6 +78,11 @@ pub struct DisplayArgs {
     /// surface [default: the scene's, or 30]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     pub crease_angle: Option<f64>,
+    /// Clamp samples to the brightness of a screen before they are averaged, so that edges of lamps
+    /// are smooth; the course averages first. Linear formats are never clamped [default: the
+    /// scene's, or true]
+    #[arg(long, value_name = "BOOL", action = clap::ArgAction::Set)]
+    pub clamp_samples: Option<bool>,
     /// Samples per sub-pixel
     #[arg(long, value_name = "N")]
     pub samples: Option<u32>,
@@ -142,6 +148,7 @@ impl DisplayArgs {
     pub(super) fn apply(&self, params: &mut ImageParams) {
         self.image.apply(params);
         set(&mut params.backs, self.views.backs);
+        set(&mut params.clamp_samples, self.clamp_samples);
         set(&mut params.samples, self.samples);
         set(&mut params.adaptive, self.adaptive);
         set(&mut params.directions, self.gather.flatten());

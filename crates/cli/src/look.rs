@@ -138,21 +138,10 @@ impl Look {
         }
     }
 
-    /// The palette for an image; `is_fixed` says that it is for others like it, too.
-    pub(super) fn palette(
-        &self,
-        image: &Image,
-        args: &ShowArgs,
-        params: &ImageParams,
-        is_fixed: bool,
-    ) -> Palette {
+    /// The palette for an image.
+    pub(super) fn palette(&self, image: &Image, args: &ShowArgs, params: &ImageParams) -> Palette {
         let Some(number) = &self.number else {
-            let tone = params.tone_map();
-            return Palette::Tones(if is_fixed {
-                tone.fixed_for(image)
-            } else {
-                tone
-            });
+            return Palette::Tones(params.tone_map());
         };
         let top = args
             .top

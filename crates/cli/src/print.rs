@@ -1,9 +1,8 @@
 //! How an image becomes what a screen or a file holds.
 
 use super::look::Number;
-use radiosity::image::{
-    ColorScale, Exposure, Image, Rgb8Image, Rgb16Image, ToneMap, Transfer, with_legend,
-};
+use radiosity::image::{ColorScale, Image, Rgb8Image, Rgb16Image, ToneMap, Transfer, with_legend};
+use radiosity::params::NumberOrWord;
 use radiosity::renderer::Outlines;
 use std::cell::OnceCell;
 
@@ -17,8 +16,10 @@ pub(super) enum Palette {
 /// An image and all that it takes to show it.
 pub(super) struct Print<'a> {
     pub(super) palette: &'a Palette,
-    /// The quantity over pi.
+    /// The quantity over pi, clamped for screens.
     pub(super) image: &'a Image,
+    /// The same as it is.
+    pub(super) linear: &'a Image,
     /// Where patches end, if lines are wanted.
     pub(super) outlines: Option<&'a Outlines>,
     /// Whether lines of equal numbers are drawn over false colours.
@@ -47,14 +48,11 @@ impl Palette {
     pub(super) fn facts(&self) -> Vec<(&'static str, String)> {
         match self {
             Palette::Tones(tone) => {
-                let exposure = match tone.exposure {
-                    Exposure::Fixed(factor) => format!("{factor}"),
-                    Exposure::Automatic => "automatic".to_owned(),
-                };
+                let exposure = tone.exposure.number();
                 vec![
                     ("Quantity", "radiance".to_owned()),
                     ("Unit", "W/m²/sr".to_owned()),
-                    ("Exposure", exposure),
+                    ("Exposure", exposure.unwrap_or_default().to_string()),
                 ]
             }
             Palette::Colors(scale, number) => vec![
@@ -112,8 +110,8 @@ impl Print<'_> {
     /// The numbers.
     pub(super) fn linear(&self) -> Image {
         match self.palette {
-            Palette::Tones(_) => self.image.clone(),
-            Palette::Colors(_, number) => number.linear(self.image),
+            Palette::Tones(_) => self.linear.clone(),
+            Palette::Colors(_, number) => number.linear(self.linear),
         }
     }
 }

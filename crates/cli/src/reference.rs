@@ -6,9 +6,9 @@ use super::run::{make_folder, with_threads, write};
 use super::site::Site;
 use super::terminal::{Terminal, say_json};
 use crate::error::Error;
-use crate::lines::indented;
+use crate::lines::{indented, labelled};
 use radiosity::geometry::Discretization;
-use radiosity::image::{Image, PictureFormat, encode, encode_pfm};
+use radiosity::image::{Exposure, Image, PictureFormat, encode, encode_pfm};
 use radiosity::params::NumberOrWord;
 use radiosity::reference::{Tracer, cell_means};
 use radiosity::renderer::ImageParams;
@@ -20,6 +20,7 @@ use radiosity_simd::InstructionSet;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::slice;
 use std::time::{Duration, Instant};
 
 /// With fewer passes bright outliers, which are clamped, still hide most of the error.
@@ -50,6 +51,8 @@ struct Json {
 struct PictureReport {
     /// The estimated root mean square error, in percent of the mean.
     error_percent: f64,
+    /// The factor from radiance to brightness, of the PNG.
+    exposure: f64,
     /// Points of surfaces where walks gathered light.
     vertices: u64,
     vertices_per_second_and_thread: f64,
@@ -137,16 +140,17 @@ fn picture(
     let mut tracer = tracer.map_err(of_mesh)?;
     let start = Instant::now();
     let percent = trace(args, (scene, params), &mut tracer, folder, terminal)?;
-    let outputs = save(scene, params, &tracer, folder)?;
+    let (exposure, outputs) = save(scene, params, &tracer, folder)?;
     let seconds = start.elapsed().as_secs_f64();
     let rate = tracer.vertices() as f64 / seconds / rayon::current_num_threads() as f64;
-    terminal.line(&format!(
-        "{:<14}{} walks per pixel, estimated error {percent:.2} %, \
-         {:.2} M vertices/s/thread{seconds:>10.2} s",
-        "reference",
-        tracer.samples(),
+    let walks = tracer.samples();
+    let line = format!("{walks} walks per pixel (--exposure {exposure})");
+    let line = labelled("reference", &format!("{line:<44}{seconds:>9.2} s"));
+    terminal.line(&line);
+    terminal.line(&indented(&format!(
+        "estimated error {percent:.2} %; {:.2} million vertices a second on each thread",
         rate / 1e6,
-    ));
+    )));
     Ok(Json {
         scene: scene.name.clone(),
         walks: tracer.samples(),
@@ -154,6 +158,7 @@ fn picture(
         instruction_set: InstructionSet::current().name(),
         picture: Some(PictureReport {
             error_percent: percent,
+            exposure,
             vertices: tracer.vertices(),
             vertices_per_second_and_thread: rate,
         }),
@@ -219,13 +224,13 @@ fn expected_passes(args: &ReferenceCommand, tracer: &Tracer<'_>, seconds: f64, e
     expected.max(least)
 }
 
-/// Writes radiance and standard error as float maps, and the picture for people.
+/// Writes radiance and standard error as float maps, and the picture for people; tells its exposure.
 fn save(
     scene: &Scene,
     params: &ImageParams,
     tracer: &Tracer<'_>,
     folder: &Path,
-) -> Result<BTreeMap<&'static str, String>, Error> {
+) -> Result<(f64, BTreeMap<&'static str, String>), Error> {
     let traced = tracer.picture();
     let image = |pixels: &[[f64; 3]]| Image {
         width: traced.width,
@@ -236,8 +241,11 @@ fn save(
             .collect(),
     };
     let (radiance, error) = (image(&traced.radiance), image(&traced.standard_error));
-    let levels = params.tone_map().apply(&radiance);
-    let png = encode(&levels, PictureFormat::Png(params.gamma), &[]);
+    let measured = || Exposure::of(slice::from_ref(&radiance));
+    let exposure = params.exposure.number().or_else(measured).unwrap_or(1.0);
+    let levels = params.for_screens(exposure).tone_map().apply(&radiance);
+    let facts = [("Exposure", exposure.to_string())];
+    let png = encode(&levels, PictureFormat::Png(params.gamma), &facts);
     let files = [
         ("radiance", "reference.pfm", encode_pfm(&radiance)),
         ("standard_error", "reference-error.pfm", encode_pfm(&error)),
@@ -249,5 +257,5 @@ fn save(
         write(&path, None, &bytes)?;
         paths.insert(name, path.display().to_string());
     }
-    Ok(paths)
+    Ok((exposure, paths))
 }

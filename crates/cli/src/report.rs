@@ -64,6 +64,9 @@ const MOST_TOLD: usize = 12;
 #[derive(Debug, Serialize)]
 pub(crate) struct DisplayReport {
     pub(crate) seconds: f64,
+    /// The factor from radiance to brightness, of pictures that are shown as an eye sees them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) exposure: Option<f64>,
 }
 
 impl<'a> Report<'a> {
@@ -153,7 +156,11 @@ impl<'a> Report<'a> {
 
     pub(crate) fn display(&mut self, display: DisplayReport) {
         let seconds = format!("{:.2} s", display.seconds);
-        let line = labelled("pictures", &format!("{:<36}{seconds:>9}", "rendered"));
+        let how = match display.exposure {
+            Some(factor) => format!("rendered (--exposure {factor})"),
+            None => "rendered".to_owned(),
+        };
+        let line = labelled("pictures", &format!("{how:<36}{seconds:>9}"));
         self.terminal.line(&line);
         self.json.stages.display = Some(display);
     }

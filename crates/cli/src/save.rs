@@ -67,6 +67,16 @@ impl<'a> Folder<'a> {
         }
     }
 
+    /// Whether any format holds what screens show.
+    pub(super) fn wants_levels(&self) -> bool {
+        !self.formats.iter().all(|format| format.is_linear())
+    }
+
+    /// Whether any format holds numbers.
+    pub(super) fn wants_linear(&self) -> bool {
+        self.formats.iter().any(|format| format.is_linear())
+    }
+
     /// Writes a picture in all formats. The first format's file is called as the picture, others
     /// have the format appended.
     pub(super) fn save(&mut self, name: &str, print: &Print<'_>) -> Result<(), Error> {
@@ -130,6 +140,16 @@ fn dimmed_lights(dimming: &Dimming) -> String {
 }
 
 impl FormatArg {
+    /// Whether it holds numbers, and not what screens show.
+    fn is_linear(self) -> bool {
+        match self {
+            FormatArg::Ppm | FormatArg::PlainPpm | FormatArg::Png | FormatArg::Png16 => false,
+            FormatArg::Pfm | FormatArg::Hdr => true,
+            #[cfg(feature = "openexr")]
+            FormatArg::Exr => true,
+        }
+    }
+
     /// What it is called in reports, and how its files end.
     fn label_and_ending(self) -> (&'static str, &'static str) {
         match self {

@@ -17,6 +17,7 @@ use std::collections::BTreeSet;
 /// What is to be made, and what has been.
 pub(super) struct Series<'a> {
     pub(super) args: &'a DisplayArgs,
+    /// Of pictures for screens.
     pub(super) params: &'a ImageParams,
     pub(super) factors: &'a Factors<'a>,
     pub(super) looks: &'a [Look],
@@ -42,21 +43,30 @@ impl Series<'_> {
             let patches = self.factors.patches();
             let shown = show(self.factors, light, look.quantity)?;
             let renderer = shown.renderer(&patches.mesh, self.params, &shadings);
+            let params = self.params_of(look);
             let mut fixed = None;
             for shot in self.shots {
                 self.glance(look, &renderer, shot, fixed.as_ref());
-                let camera = &shot.camera;
-                let images = render_by(&renderer, camera, self.params, patches.context())?;
+                let render = |params: &ImageParams| {
+                    render_by(&renderer, &shot.camera, params, patches.context())
+                };
+                let images = render(&params)?;
+                let is_clamped = params.brightest.is_finite();
+                let linear = (is_clamped && self.folder.wants_linear())
+                    .then(|| render(&params.linear()))
+                    .transpose()?;
+                let linear = linear.as_ref().unwrap_or(&images);
                 let is_black = !images.iter().any(Image::shows_something);
                 if is_black && look.quantity == Quantity::Radiosity {
                     self.say_why_black(shot);
                 }
                 let outlines = self.outlines(look, shot);
-                for (image, &shading) in images.iter().zip(&shadings) {
+                for ((image, linear), &shading) in images.iter().zip(linear).zip(&shadings) {
                     let palette = self.palette(look, image, fixed.as_ref());
                     let print = Print {
                         palette: &palette,
                         image,
+                        linear,
                         outlines: outlines.as_ref(),
                         // Between patches of one number there is nothing to tell.
                         isolines: self.args.show.isolines && shading != Shading::Constant,
@@ -64,11 +74,9 @@ impl Series<'_> {
                         shown: OnceCell::new(),
                     };
                     self.keep(name_of(look, shot, shading), &print)?;
-                    // Numbers have the same colours in all pictures, and films do not flicker; but
-                    // what shows nothing tells nothing of the others.
-                    let is_shared =
-                        self.args.views.is_film() || matches!(palette, Palette::Colors(..));
-                    if is_shared && fixed.is_none() && image.shows_something() {
+                    // Numbers have the same colours in all pictures; but what shows nothing tells
+                    // nothing of the others.
+                    if fixed.is_none() && image.shows_something() {
                         fixed = Some(palette);
                     }
                 }
@@ -106,7 +114,7 @@ impl Series<'_> {
                 subpixels: 1,
                 samples: 4,
                 adaptive: 1,
-                ..*self.params
+                ..self.params_of(look)
             };
             let images = renderer.render(&shot.camera, &few_samples);
             let image = images.last().expect("there is a shading");
@@ -140,11 +148,19 @@ impl Series<'_> {
         has_lines.then(|| Outlines::new(&self.factors.patches().mesh, seen, self.size()))
     }
 
+    /// Numbers are never clamped, nor are pictures of which no screen shows any.
+    fn params_of(&self, look: &Look) -> ImageParams {
+        let is_for_screens = self.folder.wants_levels() || self.args.views.sheet;
+        match is_for_screens && !look.is_number() {
+            true => *self.params,
+            false => self.params.linear(),
+        }
+    }
+
     fn palette(&self, look: &Look, image: &Image, fixed: Option<&Palette>) -> Palette {
-        let is_film = self.args.views.is_film();
         fixed
             .cloned()
-            .unwrap_or_else(|| look.palette(image, &self.args.show, self.params, is_film))
+            .unwrap_or_else(|| look.palette(image, &self.args.show, self.params))
     }
 
     fn size(&self) -> (u32, u32) {

@@ -42,11 +42,6 @@ pub(super) struct Shot {
 }
 
 impl ViewArgs {
-    /// Whether pictures are frames of a film.
-    pub(super) fn is_film(&self) -> bool {
-        self.turntable.is_some() || self.path.is_some()
-    }
-
     /// All cameras, in order.
     pub(super) fn shots(&self, scene: &Scene, mesh: &Mesh) -> Result<Vec<Shot>, Error> {
         let wanted = self.wanted(scene)?;

@@ -33,12 +33,14 @@ pub struct ToneMap {
 pub enum Exposure {
     /// This one.
     Fixed(f64),
-    /// So that 98 % of the pixels that are not black are less bright than 1, by luminance.
+    /// [`Exposure::of`] the image.
     Automatic,
 }
 
-/// Of pixels that are not black, so many are less bright than 1 by the automatic exposure.
+/// Of pixels that are not black, so many are less bright than this by the automatic exposure: what
+/// is left to 1 is for coloured light, of which one channel is brighter than the luminance.
 const AUTOMATIC_PERCENTILE: f64 = 0.98;
+const AUTOMATIC_BRIGHTNESS: f32 = 0.8;
 
 impl NumberOrWord for Exposure {
     const WORD: &'static str = "auto";
@@ -64,14 +66,33 @@ pub(crate) fn luminance(rgb: Rgb) -> f32 {
 }
 
 impl Exposure {
+    /// The factor by which 98 % of the pixels of some images that are not black are less bright
+    /// than 0.8, by luminance. It has three digits, so that whoever reads it can set it. There is
+    /// none if all are black.
+    ///
+    /// ```
+    /// use radiosity_image::{Exposure, Image};
+    ///
+    /// let grey = Image { width: 1, height: 1, pixels: vec![[0.3; 3]] };
+    /// assert_eq!(Exposure::of(&[grey]), Some(2.67));
+    /// assert_eq!(Exposure::of(&[Image::black(1, 1)]), None);
+    /// ```
+    pub fn of(images: &[Image]) -> Option<f64> {
+        let pixels = images.iter().flat_map(|image| &image.pixels);
+        let lit = pixels.map(|pixel| luminance(*pixel)).filter(is_lit);
+        let bright = percentile(lit, AUTOMATIC_PERCENTILE)?;
+        let factor: f64 = format!("{:.2e}", AUTOMATIC_BRIGHTNESS / bright)
+            .parse()
+            .ok()?;
+        (factor > 0.0 && factor.is_finite()).then_some(factor)
+    }
+
     /// The factor for an image.
     fn factor(self, image: &Image) -> f32 {
         match self {
             Exposure::Fixed(factor) => factor as f32,
             Exposure::Automatic => {
-                let luminances = image.pixels.iter().map(|pixel| luminance(*pixel));
-                percentile(luminances.filter(is_lit), AUTOMATIC_PERCENTILE)
-                    .map_or(1.0, |bright| 1.0 / bright)
+                Exposure::of(std::slice::from_ref(image)).map_or(1.0, |factor| factor as f32)
             }
         }
     }
@@ -85,14 +106,6 @@ impl ToneMap {
             curve: Curve::Clamp,
             transfer,
             dither: false,
-        }
-    }
-
-    /// The same with the exposure that it has for one image, for others.
-    pub fn fixed_for(&self, image: &Image) -> ToneMap {
-        ToneMap {
-            exposure: Exposure::Fixed(self.exposure.factor(image).into()),
-            ..*self
         }
     }
 
@@ -186,7 +199,7 @@ mod tests {
         pixels.push([1e6; 3]);
         let exposure = Exposure::Automatic;
         let factor = exposure.factor(&image(pixels));
-        assert!((1.0 / factor - 98.0).abs() < 1.1, "{factor}");
+        assert!((0.8 / factor - 98.0).abs() < 1.5, "{factor}");
         assert_eq!(exposure.factor(&image(vec![[0.0; 3]])), 1.0);
     }
 

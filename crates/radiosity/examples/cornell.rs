@@ -2,7 +2,7 @@
 //! `cargo run --release --example cornell`.
 
 use radiosity::renderer::Shading;
-use radiosity::{Context, Project, estimate, render, save_png, solve, subdivide};
+use radiosity::{Context, Project, estimate, expose, render, save_png, solve, subdivide};
 use std::error::Error;
 
 const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/cornell.toml");
@@ -13,8 +13,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let factors = estimate(&patches, &params.form_factors)?;
     let light = solve(&factors, &params.solver)?.light()?;
     let camera = scene.first_camera().ok_or("the scene has no camera")?;
-    let pictures = render(&patches, &light, &camera, &params.image, &[Shading::Smooth])?;
-    save_png("cornell.png".as_ref(), &pictures[0], &params.image)?;
+    let image = expose(&patches, &light, &[camera], &params.image);
+    let pictures = render(&patches, &light, &camera, &image, &[Shading::Smooth])?;
+    save_png("cornell.png".as_ref(), &pictures[0], &image)?;
     println!("cornell.png");
     Ok(())
 }

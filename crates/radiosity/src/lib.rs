@@ -48,7 +48,7 @@ pub use project::{Params, Project};
 pub use remedy::Remedy;
 pub use row_report::RowReport;
 pub use rows::{RowSummary, Unbalanced};
-pub use stages::{estimate, render, save_png, solve, solve_anew, subdivide};
+pub use stages::{estimate, expose, render, save_png, solve, solve_anew, subdivide};
 
 pub use radiosity_cache as cache;
 pub use radiosity_compare as compare;

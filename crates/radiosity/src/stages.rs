@@ -2,7 +2,7 @@
 //!
 //! ```no_run
 //! use radiosity::renderer::Shading;
-//! use radiosity::{Context, Project, estimate, render, save_png, solve, subdivide};
+//! use radiosity::{Context, Project, estimate, expose, render, save_png, solve, subdivide};
 //!
 //! let Project { scene, params, .. } = Project::open("scenes/cornell.toml".as_ref())?;
 //! let patches = subdivide(&scene, &params.discretization, Context::default())?;
@@ -10,8 +10,9 @@
 //! let solved = solve(&factors, &params.solver)?;
 //! let light = solved.light()?;
 //! let camera = scene.first_camera().expect("the scene has a camera");
-//! let pictures = render(&patches, &light, &camera, &params.image, &[Shading::Smooth])?;
-//! save_png("cornell.png".as_ref(), &pictures[0], &params.image)?;
+//! let image = expose(&patches, &light, &[camera], &params.image);
+//! let pictures = render(&patches, &light, &camera, &image, &[Shading::Smooth])?;
+//! save_png("cornell.png".as_ref(), &pictures[0], &image)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -20,6 +21,7 @@
 //! needed: a cached solution needs none.
 
 mod dimming;
+mod exposure;
 mod factors;
 mod light;
 mod patches;
@@ -27,6 +29,7 @@ mod pictures;
 mod solution;
 
 pub use dimming::Dimming;
+pub use exposure::expose;
 pub use factors::{Factors, FormFactorsMade, estimate};
 pub use light::PatchLight;
 pub use patches::{Patches, subdivide};

@@ -31,16 +31,24 @@ pub struct ImageParams {
     /// Degrees between normals below which neighbouring faces of a mesh are shaded as one smooth
     /// surface, 0 to 180. Default: 30.
     pub crease_angle: f64,
-    /// The factor from radiance, in W/(m^2 sr), to brightness, or "auto". Default: 1.
+    /// The factor from radiance, in W/(m^2 sr), to brightness, or "auto". Default: auto.
     #[serde(with = "radiosity_params::number_or_word")]
     pub exposure: Exposure,
     /// What becomes of what is then brighter than a screen. Default: clamp.
     pub tone: Curve,
-    /// The exponent of the screen, or "srgb". Default: 2.2.
+    /// The exponent of the screen, or "srgb". Default: srgb.
     #[serde(with = "radiosity_params::number_or_word")]
     pub gamma: Transfer,
     /// Whether levels are dithered. Default: false.
     pub dither: bool,
+    /// Whether samples are clamped to what a screen can show before they are averaged, in pictures
+    /// for people: the edges of lamps are smooth then. Linear images are not clamped. The course
+    /// averages first. Default: true.
+    pub clamp_samples: bool,
+    /// The radiance to which samples are clamped, in W/(m^2 sr). Default: infinite, for linear
+    /// images; [`ImageParams::for_screens`] sets it.
+    #[serde(skip)]
+    pub brightest: f32,
     /// The luminous flux of a watt of light, for illuminance, in lm/W. Default: 683, that of green
     /// light of 540 THz (BIPM, "The International System of Units", 9th edition, 2019).
     pub lumens_per_watt: f64,
@@ -60,10 +68,12 @@ impl Default for ImageParams {
             directions: 4,
             backs: Backs::default(),
             crease_angle: 30.0,
-            exposure: Exposure::Fixed(1.0),
+            exposure: Exposure::Automatic,
             tone: Curve::default(),
-            gamma: Transfer::Gamma(2.2),
+            gamma: Transfer::Srgb,
             dither: false,
+            clamp_samples: true,
+            brightest: f32::INFINITY,
             lumens_per_watt: 683.0,
             seed: 0,
         }
@@ -105,6 +115,28 @@ impl ImageParams {
             curve: self.tone,
             transfer: self.gamma,
             dither: self.dither,
+        }
+    }
+
+    /// For images that screens will show at an exposure.
+    pub fn for_screens(&self, exposure: f64) -> ImageParams {
+        let white = self.tone.white() / exposure as f32;
+        ImageParams {
+            exposure: Exposure::Fixed(exposure),
+            brightest: if self.clamp_samples {
+                white
+            } else {
+                f32::INFINITY
+            },
+            ..*self
+        }
+    }
+
+    /// For images of radiance as it is.
+    pub fn linear(&self) -> ImageParams {
+        ImageParams {
+            brightest: f32::INFINITY,
+            ..*self
         }
     }
 

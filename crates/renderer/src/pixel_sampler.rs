@@ -21,6 +21,8 @@ pub(crate) struct PixelSampler<'a> {
     shader: &'a Shader<'a>,
     samples: SampleSets,
     most_rounds: u32,
+    /// The radiosity to which samples are clamped.
+    brightest: f32,
 }
 
 /// A row of pixels, each as often as there are shadings.
@@ -121,6 +123,7 @@ impl<'a> PixelSampler<'a> {
             screen: Screen::new(mesh, (camera, params.backs), size, film.reach()),
             samples: SampleSets::new(&film, params.samples, params.seed),
             most_rounds: params.adaptive,
+            brightest: PI * params.brightest,
             mesh,
             shader,
             camera,
@@ -147,7 +150,7 @@ impl<'a> PixelSampler<'a> {
         workspace: &mut Workspace,
         sums: &mut Sums<S::F32>,
     ) {
-        let zero = simd.splat_f32(0.0);
+        let (zero, brightest) = (simd.splat_f32(0.0), simd.splat_f32(self.brightest));
         let mut dark = !0;
         let first = workspace.numbers.first;
         for seen in seen {
@@ -166,7 +169,7 @@ impl<'a> PixelSampler<'a> {
             for (sums, shading) in sums.radiosity.iter_mut().zip(shadings) {
                 let radiosity = self.shader.shade(simd, *shading, points, workspace);
                 for c in 0..3 {
-                    sums[c] = sums[c] + radiosity[c] * weights;
+                    sums[c] = sums[c] + radiosity[c].min(brightest) * weights;
                 }
                 brightness = radiosity[0] + radiosity[1] + radiosity[2];
             }

@@ -60,7 +60,7 @@ fn render_reports_one_json_object() {
             "sweeps"
         ]
     );
-    assert_eq!(keys(&stages["display"]), ["seconds"]);
+    assert_eq!(keys(&stages["display"]), ["exposure", "seconds"]);
     assert_eq!(stages["solve"]["reason"], "nothing cached yet");
     assert_eq!(
         keys(&report["outputs"]),

@@ -1,6 +1,6 @@
 //! Comparing results on the command line.
 
-use crate::place::Place;
+use crate::place::{Place, SCENE};
 use std::fs;
 
 /// A picture against itself as levels errs by the rounding of levels and nothing more; the
@@ -8,6 +8,8 @@ use std::fs;
 #[test]
 fn pictures_of_all_formats_are_compared() {
     let place = Place::new();
+    let shown = "[image]\nexposure = 1\ngamma = 2.2";
+    place.write("room.toml", &SCENE.replace("[image]", shown));
     place.succeed("reference room.toml --spp 8");
     let compare = "compare out/room-reference.png out/room-reference.pfm --scene room.toml";
     let json = place.json(&format!("{compare} --difference levels.png"));

@@ -37,6 +37,16 @@ const FILMIC_WHITE: f32 = 11.2;
 const FILMIC_EXPOSURE: f32 = 2.0;
 
 impl Curve {
+    /// The brightness from which on a screen shows white. Reinhard's curve has it where a picture
+    /// is brightest.
+    pub fn white(self) -> f32 {
+        match self {
+            Curve::Clamp => 1.0,
+            Curve::Reinhard => f32::INFINITY,
+            Curve::Filmic => FILMIC_WHITE / FILMIC_EXPOSURE,
+        }
+    }
+
     pub(super) fn for_picture(self, luminances: &mut dyn Iterator<Item = f32>) -> OfPicture {
         match self {
             Curve::Clamp => OfPicture::Clamp,
@@ -92,7 +102,7 @@ mod tests {
         for (curve, white) in [
             (Curve::Clamp, 1.0),
             (Curve::Reinhard, 7.0),
-            (Curve::Filmic, 5.6),
+            (Curve::Filmic, Curve::Filmic.white()),
         ] {
             assert!(at(curve, 0.0, 7.0).abs() < 1e-6, "{curve:?}");
             assert!((at(curve, white, 7.0) - 1.0).abs() < 1e-5, "{curve:?}");

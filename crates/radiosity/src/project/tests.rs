@@ -83,8 +83,8 @@ fn what_is_not_said_has_defaults() {
     let image = params.image;
     assert_eq!((image.width, image.height), (640, 480));
     assert_eq!((image.subpixels, image.samples), (2, 4));
-    assert_eq!(image.exposure, Exposure::Fixed(1.0));
-    assert_eq!(image.gamma, Transfer::Gamma(2.2));
+    assert_eq!(image.exposure, Exposure::Automatic);
+    assert_eq!(image.gamma, Transfer::Srgb);
     assert_eq!((image.tone, image.dither), (Curve::Clamp, false));
     assert_eq!(
         (params.form_factors.mode, params.form_factors.points),

@@ -58,7 +58,8 @@ pub struct Shown {
 }
 
 /// Pictures of what patches shine with as a camera sees it: linear radiance in W/(m^2 sr), by each
-/// of some shadings, in that order.
+/// of some shadings, in that order. With the parameters that [`expose`](super::expose) gives they
+/// are clamped for screens.
 ///
 /// # Panics
 ///
@@ -153,7 +154,7 @@ pub fn render_by(
 
 impl Shown {
     /// What leaves patches.
-    fn light(patches: &Patches<'_>, light: &PatchLight) -> Shown {
+    pub(super) fn light(patches: &Patches<'_>, light: &PatchLight) -> Shown {
         let emission = light.emission.clone();
         let to_f32 = |rgb: &[f64; 3]| rgb.map(|channel| channel as f32);
         let reflectance: Vec<[f32; 3]> = patches.reflectance.iter().map(to_f32).collect();
@@ -169,6 +170,18 @@ impl Shown {
             gathered_gain: reflectance.clone(),
             reflectance,
         }
+    }
+
+    /// The same without patches that emit.
+    pub(super) fn reflected(patches: &Patches<'_>, light: &PatchLight) -> Shown {
+        let mut shown = Shown::light(patches, light);
+        let emission = light.emission.iter();
+        for (value, emission) in shown.value.iter_mut().zip(emission) {
+            if *emission != [0.0; 3] {
+                *value = [0.0; 3];
+            }
+        }
+        shown
     }
 
     /// Makes the quantity ready to be looked at from anywhere, by each of some shadings.
