@@ -14,6 +14,7 @@ mod pieces;
 mod receivers;
 
 use crate::Rgb;
+use crate::shading_normals::{ShadingNormals, Smooth};
 use clear::clear_factors;
 pub(crate) use pieces::Cutting;
 use pieces::form_factor;
@@ -27,6 +28,7 @@ pub(crate) struct DirectLight<'a> {
     mesh: &'a Mesh,
     occluders: Occluders,
     emitters: Vec<Emitter>,
+    normals: ShadingNormals<'a>,
     /// For each patch, once it is asked for, what it sees of each emitter.
     of_patches: Vec<OnceLock<Vec<EmitterVisibility>>>,
 }
@@ -53,8 +55,12 @@ enum EmitterVisibility {
 /// The most faces that are cut out one by one.
 const MOST_CUT: usize = 48;
 impl<'a> DirectLight<'a> {
-    /// From what patches emit.
-    pub(crate) fn new(mesh: &'a Mesh, sources: &[Rgb]) -> DirectLight<'a> {
+    /// From what patches emit, to points of surfaces with some normals.
+    pub(crate) fn new(
+        mesh: &'a Mesh,
+        sources: &[Rgb],
+        normals: ShadingNormals<'a>,
+    ) -> DirectLight<'a> {
         let ids = (0..mesh.faces.len() as u32).map(FaceId);
         let emitter = |id: FaceId| {
             let face = &mesh.faces[id.index()];
@@ -71,8 +77,14 @@ impl<'a> DirectLight<'a> {
             mesh,
             occluders: Occluders::new(mesh),
             emitters: ids.filter_map(emitter).collect(),
+            normals,
             of_patches: mesh.patches.iter().map(|_| OnceLock::new()).collect(),
         }
+    }
+
+    /// What a face is shaded by, if it is not flat.
+    pub(crate) fn smooth(&self, face: FaceId) -> Option<Smooth<'_>> {
+        self.normals.of(face)
     }
 
     /// The irradiance at points of patches.
@@ -144,7 +156,21 @@ impl<'a> DirectLight<'a> {
         };
         let own = patch.polygon.corners();
         let lamp = emitter.polygon.corners();
-        let over_patch = heights(lamp, patch.normal, patch.centroid);
+        // Of points over the horizons of the patch: the lowest and the highest.
+        let over_horizons = |points: &[DVec3]| -> [f64; 2] {
+            let flat = heights(points, patch.normal, patch.centroid);
+            let Some(smooth) = self.smooth(patch.face) else {
+                return flat;
+            };
+            // Heights are linear in the normal and in the place, so they are between these.
+            let lift = smooth.most_lift();
+            let normals = smooth.normals().iter();
+            let all = normals.flat_map(|n| own.iter().map(|foot| heights(points, *n, *foot)));
+            all.fold(flat, |[low, high], [lower, higher]| {
+                [low.min(lower - lift), high.max(higher)]
+            })
+        };
+        let over_patch = over_horizons(lamp);
         let over_lamp = heights(own, emitter.normal, lamp[0]);
         let is_away =
             emitter.face == patch.face || over_patch[1] <= tolerance || over_lamp[1] <= tolerance;
@@ -166,7 +192,7 @@ impl<'a> DirectLight<'a> {
             let corners = corners.corners();
             *face != patch.face
                 && *face != emitter.face
-                && heights(corners, patch.normal, patch.centroid)[1] > tolerance
+                && over_horizons(corners)[1] > tolerance
                 && heights(corners, emitter.normal, lamp[0])[1] > tolerance
                 && !is_beside(*face)
         };

@@ -73,13 +73,20 @@ impl<'a> Gather<'a> {
         let share = 1.0 / self.directions as f32;
         for lane in (0..LANES).filter(|lane| points.lanes >> lane & 1 != 0) {
             let at = DVec3::from_array(points.in_space.map(|axis| axis[lane]));
+            let (at, normal) = match direct.smooth(points.face) {
+                Some(smooth) => {
+                    let on_face = DVec2::from_array(points.on_face.map(|axis| axis[lane]));
+                    smooth.at(on_face, at)
+                }
+                None => (at, self.mesh.faces[points.face.index()].normal),
+            };
             // All samples of a pixel share one sequence.
             let first = (numbers.first + lane as u32).wrapping_mul(self.directions);
             let mut sums = [simd.splat_f32(0.0); 3];
             for from in (0..self.directions).step_by(LANES) {
                 let count = (self.directions - from).min(LANES as u32);
                 let taken = (first.wrapping_add(from), count);
-                let met = self.look((points.face, at), taken, numbers.scramble);
+                let met = self.look((points.face, at, normal), taken, numbers.scramble);
                 result.inverse[lane] += share * met.inverse;
                 if met.lanes != 0 {
                     self.add(simd, &met, (direct, &mut *workspace), &mut sums);
@@ -95,11 +102,10 @@ impl<'a> Gather<'a> {
     /// Looks in some directions, eight at most.
     fn look(
         &self,
-        (face, at): (FaceId, DVec3),
+        (face, at, normal): (FaceId, DVec3, DVec3),
         (first, count): (u32, u32),
         scramble: [u32; 2],
     ) -> FirstHits {
-        let normal = self.mesh.faces[face.index()].normal;
         let (tangent, bitangent) = normal.any_orthonormal_pair();
         let mut met = FirstHits::default();
         for lane in 0..count as usize {

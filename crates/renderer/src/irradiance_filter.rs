@@ -11,7 +11,7 @@ mod plane_fit;
 
 use crate::{Rgb, add_scaled};
 use plane_fit::PlaneFit;
-use radiosity_geometry::{DVec3, FaceId, Mesh, SurfaceId};
+use radiosity_geometry::{DVec2, DVec3, FaceId, Mesh, SurfaceId};
 use radiosity_simd::LANES;
 
 /// The part of a face that a pixel shows: its samples there.
@@ -41,6 +41,9 @@ pub(crate) struct Gathered {
 const REACH: u32 = 4;
 /// And how far away they may be, in harmonic mean distances to what is seen.
 const NEAR: f64 = 0.3;
+/// Fragments nearer than so many pixels always count: in a corner of the room nothing else is near
+/// enough, and few directions alone are noise.
+const NEXT: f64 = 3.0;
 /// The cosine between normals below which faces of a mesh do not share their light.
 const ALIKE: f64 = 0.95;
 
@@ -92,9 +95,14 @@ impl<'a> IrradianceFilter<'a> {
         let (tangent, bitangent) = normal.any_orthonormal_pair();
         let radius = NEAR * f64::from(fragment.count / fragment.inverse.max(f32::MIN_POSITIVE));
         let mut fit = PlaneFit::default();
-        for other in self.around(y, fragment) {
+        for (row, other) in self.around(y, fragment) {
             let offset = other.center() - center;
-            let closeness = 1.0 - offset.length_squared() / (radius * radius);
+            let pixels = DVec2::new(
+                f64::from(other.x) - f64::from(fragment.x),
+                row as f64 - y as f64,
+            );
+            let in_space = 1.0 - offset.length_squared() / (radius * radius);
+            let closeness = in_space.max(1.0 - pixels.length_squared() / (NEXT * NEXT));
             let is_itself = std::ptr::eq(other, fragment);
             if is_itself || closeness > 0.0 && self.are_alike(other, fragment, normal) {
                 let kernel = if is_itself {
@@ -112,16 +120,17 @@ impl<'a> IrradianceFilter<'a> {
         fit.at_center()
     }
 
-    /// The fragments of pixels nearby.
-    fn around(&self, y: usize, fragment: &Fragment) -> impl Iterator<Item = &'a Fragment> {
+    /// The fragments of pixels nearby, and their rows.
+    fn around(&self, y: usize, fragment: &Fragment) -> impl Iterator<Item = (usize, &'a Fragment)> {
         let reach = REACH as usize;
         let rows = y.saturating_sub(reach)..(y + reach + 1).min(self.rows.len());
         let (left, right) = (fragment.x.saturating_sub(REACH), fragment.x + REACH);
-        self.rows[rows].iter().flat_map(move |row| {
-            let first = row.partition_point(|other| other.x < left);
-            row[first..]
-                .iter()
-                .take_while(move |other| other.x <= right)
+        let all = self.rows;
+        rows.flat_map(move |y| {
+            let first = all[y].partition_point(|other| other.x < left);
+            let row = all[y][first..].iter();
+            row.take_while(move |other| other.x <= right)
+                .map(move |other| (y, other))
         })
     }
 

@@ -23,7 +23,9 @@ mod pixel_sampler;
 mod render;
 mod samples;
 mod shade;
+mod shading_normals;
 mod vertex;
+mod weld;
 
 pub use fields::Fields;
 pub use overlay::Outlines;

@@ -9,7 +9,8 @@ use crate::irradiance_filter::{Fragment, Gathered};
 use crate::params::ImageParams;
 use crate::pixel_sampler::SampleNumbers;
 use crate::render::Shading;
-use radiosity_geometry::{DVec3, Mesh};
+use crate::shading_normals::{ShadingNormals, Smooth};
+use radiosity_geometry::{DVec2, DVec3, Mesh};
 use radiosity_simd::{Float, LANES, Simd};
 
 /// Shows the light of patches at points of their faces.
@@ -66,7 +67,10 @@ impl<'a> Shader<'a> {
             fields: *fields,
             shadings: shadings.to_vec(),
             smooth: has(Shading::Smooth).then(smooth),
-            direct: is_exact.then(|| DirectLight::new(mesh, fields.sources)),
+            direct: is_exact.then(|| {
+                let normals = ShadingNormals::new(mesh, params.crease_angle);
+                DirectLight::new(mesh, fields.sources, normals)
+            }),
             indirect: has(Shading::Exact).then(indirect),
             gather: (has(Shading::Gathered) && shows_gathered).then(gather),
         }
@@ -185,12 +189,18 @@ impl<'a> Shader<'a> {
         let Some(direct) = &self.direct else {
             return values;
         };
-        let [x, y, z] = &points.in_space;
-        let normal = self.mesh.faces[points.face.index()].normal;
+        let (at, normals) = match direct.smooth(points.face) {
+            Some(smooth) => smooth_points(smooth, points),
+            None => {
+                let normal = self.mesh.faces[points.face.index()].normal;
+                (points.in_space, normal.to_array().map(|axis| [axis; LANES]))
+            }
+        };
+        let ([x, y, z], [u, v, w]) = (&at, &normals);
         let receivers = Receivers {
             patches: coords.number,
             at: [simd.f64(x), simd.f64(y), simd.f64(z)],
-            normals: normal.to_array().map(|axis| simd.splat_f64(axis)),
+            normals: [simd.f64(u), simd.f64(v), simd.f64(w)],
             lanes: points.lanes,
             samples: EmitterSamples::Shared(workspace.numbers.scramble, workspace.numbers.first),
         };
@@ -209,4 +219,21 @@ impl<'a> Shader<'a> {
         }
         values
     }
+}
+
+/// Eight points of a smooth face and their normals, by axes.
+fn smooth_points(
+    smooth: Smooth<'_>,
+    points: &SurfacePoints,
+) -> ([[f64; LANES]; 3], [[f64; LANES]; 3]) {
+    let (mut at, mut normals) = ([[0.0; LANES]; 3], [[0.0; LANES]; 3]);
+    for lane in 0..LANES {
+        let on_face = DVec2::from_array(points.on_face.map(|axis| axis[lane]));
+        let point = DVec3::from_array(points.in_space.map(|axis| axis[lane]));
+        let (point, normal) = smooth.at(on_face, point);
+        for axis in 0..3 {
+            (at[axis][lane], normals[axis][lane]) = (point[axis], normal[axis]);
+        }
+    }
+    (at, normals)
 }

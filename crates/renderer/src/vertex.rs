@@ -19,10 +19,10 @@
 use crate::fields::Fields;
 use crate::hanging::{Hanging, hanging_vertices};
 use crate::hidden_patches::is_visible;
+use crate::weld::{Corner, groups, weld};
 use crate::{Rgb, add_scaled};
-use radiosity_geometry::{DVec2, DVec3, Face, FaceId, Mesh, Polygon};
+use radiosity_geometry::{DVec2, Face, FaceId, Mesh, Polygon};
 use radiosity_simd::Simd;
-use std::collections::HashMap;
 use std::ops::{Mul, Sub};
 
 /// Values at the corners of patches.
@@ -37,20 +37,6 @@ pub(crate) struct VertexValues {
 /// of the noise of single patches.
 const SHARPENING: usize = 3;
 
-/// Positions closer than this, relative to the scene's extent, are one vertex: what the digits
-/// of mesh files leave.
-const RELATIVE_WELD_DISTANCE: f64 = 1e-7;
-/// And closer than this, relative to the largest coordinate: the rounding of subdivision.
-const COORDINATE_ROUNDING: f64 = 8.0 * f64::EPSILON;
-
-/// A patch at a vertex.
-#[derive(Clone, Copy)]
-struct Corner {
-    patch: usize,
-    index: usize,
-    angle: f32,
-}
-
 impl VertexValues {
     /// Of all patches but those of the faces to leave out.
     pub(crate) fn new(
@@ -64,15 +50,22 @@ impl VertexValues {
         let faces = faces.filter(|&face| !is_left_out(face));
         let faces: Vec<&Face> = faces.map(|face| &mesh.faces[face.index()]).collect();
         let patches: Vec<usize> = faces.iter().flat_map(|face| face.patches()).collect();
-        let vertices: Vec<Vec<Corner>> = weld(mesh, &patches)
+        let together = |a: usize, b: usize| {
+            fields.reflectance[a] == fields.reflectance[b]
+                && fields.emission[a] == fields.emission[b]
+                && mesh.patches[a].normal.dot(mesh.patches[b].normal) > smallest_cosine
+        };
+        let polygons = patches.iter();
+        let polygons = polygons.map(|&patch| (patch, mesh.patches[patch].polygon.corners()));
+        let vertices: Vec<Vec<Corner>> = weld(mesh, polygons)
             .iter()
-            .flat_map(|vertex| groups(mesh, fields, smallest_cosine, vertex))
+            .flat_map(|vertex| groups(vertex, together))
             .map(|vertex| without_hidden(fields, vertex))
             .collect();
         let mut corners = vec![[0; 4]; mesh.patches.len()];
         for (id, vertex) in vertices.iter().enumerate() {
             for corner in vertex {
-                corners[corner.patch][corner.index] = id as u32;
+                corners[corner.owner][corner.index] = id as u32;
             }
         }
         let hanging = hanging_vertices(&faces, &corners);
@@ -121,7 +114,7 @@ impl VertexValues {
             add_scaled(value, 1.0, average(vertex, &missing));
             for (c, channel) in value.iter_mut().enumerate() {
                 let around = vertex.iter().filter(|corner| corner.angle > 0.0);
-                let around = around.map(|corner| of_patches[corner.patch][c]);
+                let around = around.map(|corner| of_patches[corner.owner][c]);
                 let (low, high) = around.fold((f32::MAX, 0.0), |(low, high): (f32, f32), b| {
                     (low.min(b), high.max(b))
                 });
@@ -175,113 +168,9 @@ where
     }
 }
 
-/// The corners of patches, by the vertex they share.
-fn weld(mesh: &Mesh, patches: &[usize]) -> Vec<Vec<Corner>> {
-    let bounds = mesh.bounds();
-    let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
-    let mut vertices = Vertices {
-        distance: (RELATIVE_WELD_DISTANCE * bounds.extent().max_element())
-            .max(COORDINATE_ROUNDING * largest),
-        cells: HashMap::new(),
-        positions: Vec::new(),
-    };
-    let mut corners: Vec<Vec<Corner>> = Vec::new();
-    for &patch in patches {
-        let points = mesh.patches[patch].polygon.corners();
-        for (index, &point) in points.iter().enumerate() {
-            let vertex = vertices.find_or_add(point);
-            corners.resize_with(vertices.positions.len(), Vec::new);
-            let angle = angle_at(points, index) as f32;
-            corners[vertex].push(Corner {
-                patch,
-                index,
-                angle,
-            });
-        }
-    }
-    corners
-}
-
-fn angle_at(corners: &[DVec3], index: usize) -> f64 {
-    let n = corners.len();
-    let here = corners[index];
-    let [next, previous] = [corners[(index + 1) % n], corners[(index + n - 1) % n]];
-    let (a, b) = (next - here, previous - here);
-    // Unlike the inverse cosine, right for slivers too.
-    a.cross(b).length().atan2(a.dot(b))
-}
-
-/// Cells of the hash grid, in distances that weld: wide enough that a point rarely looks into
-/// more than one.
-const CELL_WIDTH: f64 = 4.0;
-
-/// Positions in a hash grid.
-struct Vertices {
-    distance: f64,
-    cells: HashMap<[i64; 3], Vec<usize>>,
-    positions: Vec<DVec3>,
-}
-
-impl Vertices {
-    fn find_or_add(&mut self, point: DVec3) -> usize {
-        let (low, high) = (
-            self.cell(point - self.distance),
-            self.cell(point + self.distance),
-        );
-        for x in low[0]..=high[0] {
-            for y in low[1]..=high[1] {
-                for z in low[2]..=high[2] {
-                    let there = self.cells.get(&[x, y, z]).into_iter().flatten();
-                    let is_near = |&&k: &&usize| self.positions[k].distance(point) <= self.distance;
-                    if let Some(&found) = there.clone().find(is_near) {
-                        return found;
-                    }
-                }
-            }
-        }
-        let cell = self.cell(point);
-        self.cells
-            .entry(cell)
-            .or_default()
-            .push(self.positions.len());
-        self.positions.push(point);
-        self.positions.len() - 1
-    }
-
-    fn cell(&self, point: DVec3) -> [i64; 3] {
-        (point / (CELL_WIDTH * self.distance))
-            .floor()
-            .to_array()
-            .map(|x| x as i64)
-    }
-}
-
-/// The corners at one vertex, split into those that belong together.
-fn groups(
-    mesh: &Mesh,
-    fields: &Fields<'_>,
-    smallest_cosine: f64,
-    vertex: &[Corner],
-) -> Vec<Vec<Corner>> {
-    let together = |a: &Corner, b: &Corner| {
-        let (a, b) = (a.patch, b.patch);
-        fields.reflectance[a] == fields.reflectance[b]
-            && fields.emission[a] == fields.emission[b]
-            && mesh.patches[a].normal.dot(mesh.patches[b].normal) > smallest_cosine
-    };
-    let mut groups: Vec<Vec<Corner>> = Vec::new();
-    for corner in vertex {
-        let touches = |group: &mut Vec<Corner>| group.iter().any(|other| together(corner, other));
-        let mut merged: Vec<Corner> = groups.extract_if(.., touches).flatten().collect();
-        merged.push(*corner);
-        groups.push(merged);
-    }
-    groups
-}
-
 /// Has patches that cannot be seen not count, as long as there are others.
 fn without_hidden(fields: &Fields<'_>, mut vertex: Vec<Corner>) -> Vec<Corner> {
-    let is_hidden = |corner: &Corner| !is_visible(fields, corner.patch);
+    let is_hidden = |corner: &Corner| !is_visible(fields, corner.owner);
     if !vertex.iter().all(is_hidden) {
         let hidden = vertex.iter_mut().filter(|corner| is_hidden(corner));
         hidden.for_each(|corner| corner.angle = 0.0);
@@ -294,7 +183,7 @@ fn average(vertex: &[Corner], of_patches: &[Rgb]) -> Rgb {
     let total: f32 = vertex.iter().map(|corner| corner.angle).sum();
     let mut sum = [0.0; 3];
     for corner in vertex {
-        add_scaled(&mut sum, corner.angle / total, of_patches[corner.patch]);
+        add_scaled(&mut sum, corner.angle / total, of_patches[corner.owner]);
     }
     sum
 }

@@ -9,5 +9,6 @@ mod overlay;
 mod pictures;
 mod seams;
 mod smooth;
+mod smooth_meshes;
 mod square;
 mod threads;
