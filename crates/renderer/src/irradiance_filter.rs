@@ -205,26 +205,29 @@ mod tests {
         }
     }
 
-    /// Where something is near, neighbours are not asked; where nothing is, noise becomes a third
-    /// of itself at least, in the middle: some 40 neighbours count.
+    /// Where something is near, only the next pixels are asked; where nothing is, noise becomes a
+    /// third of itself at least, in the middle: some 40 neighbours count.
     #[test]
     fn neighbours_count_as_far_as_surfaces_are_away() {
         let mesh = squares();
         let noisy = |at: DVec3| 1.0 + ((1000.0 * at.x).round() * 0.37 + at.y * 91.7).sin() as f32;
-        let off = |inverse: f32| {
-            let rows = rows(inverse, noisy);
-            let filter = IrradianceFilter::new(&mesh, &rows);
-            let inner = rows.iter().enumerate().skip(3).take(4);
-            let squares = inner.map(|(y, row)| (filter.irradiance(y, &row[2])[0] - 1.0).powi(2));
-            (squares.sum::<f32>() / 4.0).sqrt()
+        // Three rows below the fifth, and beyond.
+        let elsewhere = |at: DVec3| if at.y > 0.7 { 100.0 } else { noisy(at) };
+        let found = |value: &dyn Fn(DVec3) -> f32, inverse| {
+            let rows = rows(inverse, value);
+            IrradianceFilter::new(&mesh, &rows).irradiance(4, &rows[4][2])[0]
         };
-        let rows = rows(100.0, noisy);
-        let fragment = &rows[4][2];
-        assert_eq!(
-            IrradianceFilter::new(&mesh, &rows).irradiance(4, fragment)[0],
-            noisy(fragment.center())
-        );
-        assert!(off(0.3) < off(100.0) / 3.0, "{} {}", off(0.3), off(100.0));
+        assert_eq!(found(&noisy, 100.0), found(&elsewhere, 100.0));
+        assert_ne!(found(&noisy, 0.3), found(&elsewhere, 0.3));
+        let rows = rows(0.3, noisy);
+        let filter = IrradianceFilter::new(&mesh, &rows);
+        let inner = rows.iter().enumerate().skip(3).take(4);
+        let (mut left, mut all) = (0.0, 0.0);
+        for (y, row) in inner {
+            left += (filter.irradiance(y, &row[2])[0] - 1.0).powi(2);
+            all += (noisy(row[2].center()) - 1.0).powi(2);
+        }
+        assert!(left < all / 9.0, "{left} {all}");
     }
 
     /// One fragment alone has what was gathered there.
