@@ -3,7 +3,7 @@
 use super::cache_args::CacheCommand;
 use super::choices::ByArg;
 use super::compare_args::CompareCommand;
-use super::estimate_args::EstimateArgs;
+use super::estimate_args::{EstimateArgs, FactorArgs, ThreadArgs};
 use super::image_args::DisplayArgs;
 use super::light_args::LightArgs;
 use super::parse::{parse_threshold, path_ending_in};
@@ -31,7 +31,7 @@ pub enum Command {
     Reference(ReferenceCommand),
     /// Compare two pictures or two tables of radiosities: the error of one against the other
     Compare(CompareCommand),
-    /// Check a scene, and say what memory and disk it would take, without computing anything
+    /// Check a scene, and say what time, memory and disk a run would take, without computing anything
     Check(CheckArgs),
     /// See or empty the cache
     Cache(CacheCommand),
@@ -100,8 +100,8 @@ pub struct SolveCommand {
     pub solve: SolveArgs,
     #[command(flatten)]
     pub lights: LightArgs,
-    /// Write the radiosities of all patches: surface,ia,ib,B_r,B_g,B_b in W/m^2; the path ends
-    /// in .csv
+    /// Write radiosities B and irradiances H of all patches in W/m^2, with their areas, centroids,
+    /// visible shares and groups; the path ends in .csv
     #[arg(
         help_heading = "Results",
         long,
@@ -109,6 +109,15 @@ pub struct SolveCommand {
         value_parser = path_ending_in(&["csv"]),
     )]
     pub export: Option<PathBuf>,
+    /// What the rows of the exported table are; of surfaces and groups, means by area
+    #[arg(
+        help_heading = "Results",
+        long,
+        value_enum,
+        default_value = "patch",
+        requires = "export"
+    )]
+    pub by: ByArg,
     /// Solve by every method, and draw how the residual falls with each pass; the path ends in .svg
     #[arg(
         help_heading = "Results",
@@ -148,6 +157,13 @@ pub struct DisplayCommand {
 pub struct CheckArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
+    #[command(flatten)]
+    pub factors: FactorArgs,
+    #[command(flatten)]
+    pub threads: ThreadArgs,
+    /// Print one JSON object on standard output, and everything else on standard error
+    #[arg(help_heading = "Run", long)]
+    pub json: bool,
 }
 
 /// `inspect`.

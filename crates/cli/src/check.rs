@@ -1,60 +1,174 @@
 //! `check`.
 
 use super::args::CheckArgs;
+use super::estimate_args::OutputArgs;
+use super::run::with_threads;
 use super::site::Site;
-use super::terminal::say;
+use super::terminal::{Terminal, say_json};
 use crate::error::Error;
 use crate::lines::{indented, labelled, scene_line};
+use radiosity::advice;
 use radiosity::covers;
 use radiosity::geometry::{Discretization, Mesh, count_patches};
 use radiosity::resources::Needs;
 use radiosity::scene::{Light, Scene};
-use radiosity::words::{bytes, grouped};
-use radiosity::{Context, Project, darkness, openings, subdivide};
+use radiosity::words::{bytes, duration, grouped};
+use radiosity::{
+    Context, Project, darkness, estimate, light_table_bytes, matrix_bytes, openings, subdivide,
+};
+use serde::Serialize;
 
 pub(super) fn run(args: &CheckArgs, site: &Site) -> Result<(), Error> {
-    let project = args.scene.load(site)?;
+    let mut project = args.scene.load(site)?;
+    args.factors.apply(&mut project.params.form_factors);
     project.params.check().map_err(radiosity::Error::from)?;
-    let counted = counted_needs(&project)?;
-    let fits = counted.check_memory();
-    let faces = match fits {
-        Ok(()) => Some(faces_of(&project)?),
-        Err(_) => None,
-    };
-    let needs = match &faces {
-        Some(mesh) => needs_of(&project, counted.patches, mesh.faces.len()),
-        None => counted,
-    };
-    for line in check_lines(&project, &needs, faces.as_ref()) {
-        say(&line)?;
-    }
-    Ok(fits.and(needs.check_memory())?)
+    with_threads(args.threads, || {
+        let counted = counted_needs(&project)?;
+        let fits = counted.check_memory();
+        let check = match fits {
+            Ok(()) => Check::of(&project, counted.patches)?,
+            Err(_) => Check::too_large(&project, &counted),
+        };
+        let terminal = Terminal::new(OutputArgs {
+            json: args.json,
+            verbose: false,
+        });
+        check
+            .lines(&project.scene)
+            .iter()
+            .for_each(|line| terminal.line(line));
+        if args.json {
+            say_json(&check)?;
+        }
+        terminal.finish()?;
+        Ok(fits.and(check.needs.check_memory())?)
+    })
 }
 
-/// What `check` says; of the faces of a scene that fits into memory.
-fn check_lines(project: &Project, needs: &Needs, faces: Option<&Mesh>) -> Vec<String> {
-    let scene = &project.scene;
-    let camera = if scene.first_camera().is_some() {
-        ""
-    } else {
-        " (no camera: it cannot be rendered)"
-    };
-    let mut lines = vec![
-        format!("{}{camera}", scene_line(scene, needs.patches)),
-        format!(
-            "{:<14}{} pairs: {} of memory, {} of disk",
-            "form factors",
-            grouped(needs.pairs),
-            bytes(needs.memory),
-            bytes(needs.disk),
-        ),
-    ];
-    lines.extend(views_line(scene));
-    lines.extend(lights_line(scene));
-    if let Some(faces) = faces {
-        lines.extend(notes(project, faces).iter().map(|note| indented(note)));
+/// What is found; also the object that `--json` prints: fields may be added, but not changed or
+/// removed.
+#[derive(Serialize)]
+struct Check {
+    /// The scene's name.
+    scene: String,
+    surfaces: usize,
+    patches: usize,
+    pairs: u64,
+    /// Whether pictures can be made.
+    camera: bool,
+    /// Names of the other cameras.
+    views: Vec<String>,
+    /// Names of the lights.
+    lights: Vec<String>,
+    /// Of estimating the form factors here; absent if the scene does not fit into memory.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seconds: Option<f64>,
+    memory_bytes: u64,
+    /// Of cached form factors.
+    disk_bytes: u64,
+    export_bytes: Exports,
+    /// What is wrong with the scene, or would make better pictures.
+    notes: Vec<String>,
+    #[serde(skip)]
+    needs: Needs,
+}
+
+/// Bytes of files that runs write on request; those of text are at most about as large.
+#[derive(Serialize)]
+struct Exports {
+    form_factors_npy: u64,
+    form_factors_csv: u64,
+    radiosities_csv: u64,
+    /// Of each picture.
+    picture_ppm: u64,
+}
+
+impl Check {
+    /// Of a scene that fits into memory.
+    fn of(project: &Project, patches: usize) -> Result<Check, Error> {
+        let faces = faces_of(project)?;
+        let needs = needs_of(project, patches, faces.faces.len());
+        let params = &project.params;
+        let patches = subdivide(&project.scene, &params.discretization, Context::default())?;
+        let factors = estimate(&patches, &params.form_factors)?;
+        let advice = advice::notes(&project.scene, &patches.mesh);
+        Ok(Check {
+            seconds: Some(factors.forecast()),
+            notes: notes(project, &faces).into_iter().chain(advice).collect(),
+            ..Check::too_large(project, &needs)
+        })
     }
-    lines
+
+    fn too_large(project: &Project, needs: &Needs) -> Check {
+        let scene = &project.scene;
+        let rows = needs.patches as u64;
+        let [form_factors_npy, form_factors_csv] = matrix_bytes(rows);
+        let image = &project.params.image;
+        Check {
+            scene: scene.name.clone(),
+            surfaces: scene.surfaces.len(),
+            patches: needs.patches,
+            pairs: needs.pairs,
+            camera: scene.first_camera().is_some(),
+            views: scene.views.iter().map(|view| view.name.clone()).collect(),
+            lights: scene
+                .lights
+                .iter()
+                .map(|light| light.name.clone())
+                .collect(),
+            seconds: None,
+            memory_bytes: needs.memory,
+            disk_bytes: needs.disk,
+            export_bytes: Exports {
+                form_factors_npy,
+                form_factors_csv,
+                radiosities_csv: light_table_bytes(rows),
+                picture_ppm: 3 * u64::from(image.width) * u64::from(image.height),
+            },
+            notes: Vec::new(),
+            needs: *needs,
+        }
+    }
+
+    /// The same for people.
+    fn lines(&self, scene: &Scene) -> Vec<String> {
+        let camera = match self.camera {
+            true => "",
+            false => " (no camera: it cannot be rendered)",
+        };
+        let time = self
+            .seconds
+            .map(|seconds| format!("{}, ", duration(seconds)));
+        let exports = &self.export_bytes;
+        let mut lines = vec![
+            format!("{}{camera}", scene_line(scene, self.patches)),
+            labelled(
+                "form factors",
+                &format!(
+                    "{} pairs of patches: {}{} of memory, {} of disk",
+                    grouped(self.pairs),
+                    time.unwrap_or_default(),
+                    bytes(self.memory_bytes),
+                    bytes(self.disk_bytes),
+                ),
+            ),
+            labelled(
+                "exports",
+                &format!(
+                    "form factors {} as .npy, up to {} as .csv; radiosities about {}; pictures \
+                     {} each as .ppm",
+                    bytes(exports.form_factors_npy),
+                    bytes(exports.form_factors_csv),
+                    bytes(exports.radiosities_csv),
+                    bytes(exports.picture_ppm),
+                ),
+            ),
+        ];
+        lines.extend(views_line(scene));
+        lines.extend(lights_line(scene));
+        lines.extend(self.notes.iter().map(|note| indented(note)));
+        lines
+    }
 }
 
 /// What other commands say of surfaces that lie on others, of scenes without light, and of closed

@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use radiosity::By;
 use serde::de::value::{Error, StrDeserializer};
 use serde::de::{DeserializeOwned, IntoDeserializer};
 
@@ -86,7 +87,7 @@ pub(super) const METHODS: [Choice; 2] = [
     ),
 ];
 
-/// [`By`](radiosity::By) on the command line.
+/// [`By`] on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum ByArg {
     /// Patches, in the order of the input
@@ -95,6 +96,16 @@ pub enum ByArg {
     Surface,
     /// Groups of surfaces, as the scene names them, and of faces, as mesh files do
     Group,
+}
+
+impl From<ByArg> for By {
+    fn from(by: ByArg) -> By {
+        match by {
+            ByArg::Patch => By::Patch,
+            ByArg::Surface => By::Surface,
+            ByArg::Group => By::Group,
+        }
+    }
 }
 
 /// [`Shading`](radiosity::renderer::Shading) on the command line.

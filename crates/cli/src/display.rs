@@ -19,7 +19,7 @@ pub(super) fn run(args: &DisplayCommand, site: &Site) -> Result<(), Error> {
     let Project {
         scene, mut params, ..
     } = args.scene.load(site)?;
-    args.estimate.apply(&mut params.form_factors);
+    args.estimate.factors.apply(&mut params.form_factors);
     args.solve.apply(&mut params.solver);
     args.display.apply(&mut params.image);
     params.check().map_err(radiosity::Error::from)?;

@@ -130,6 +130,7 @@ fn by_flags(remedy: &Remedy) -> String {
             " (--divisions, or a larger --max-patch-edge or `divisions` of surfaces)"
         }
         Remedy::SmallerPictures => " (--size)",
+        Remedy::SmallerExport => " (--by surface, --sparse 1e-6)",
         Remedy::CacheFolder | Remedy::CacheDisk => " (--cache, --no-cache)",
         _ => "",
     };

@@ -7,10 +7,27 @@ use clap::Args;
 use radiosity::form_factors::{Mode, Params};
 use std::path::PathBuf;
 
-/// How form factors are estimated, and where artifacts are kept.
+/// How form factors are estimated, where artifacts are kept, and what is printed.
+#[derive(Debug, Args)]
+#[allow(
+    missing_docs,
+    reason = "comments on flattened fields would replace help texts"
+)]
+pub struct EstimateArgs {
+    #[command(flatten)]
+    pub factors: FactorArgs,
+    #[command(flatten)]
+    pub cache: CacheArgs,
+    #[command(flatten)]
+    pub threads: ThreadArgs,
+    #[command(flatten)]
+    pub output: OutputArgs,
+}
+
+/// How form factors are estimated.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Form factors")]
-pub struct EstimateArgs {
+pub struct FactorArgs {
     /// Estimator of the form factors
     #[arg(long, value_parser = choice::<Mode>(&MODES))]
     pub mode: Option<Mode>,
@@ -29,15 +46,15 @@ pub struct EstimateArgs {
     /// Scale the factors so that rows sum to 1 where patches see fronts alone; reciprocity is kept
     #[arg(long)]
     pub closure: bool,
-    #[command(flatten)]
-    #[allow(missing_docs, reason = "a comment here would replace the help text")]
-    pub cache: CacheArgs,
+}
+
+/// How many threads work.
+#[derive(Clone, Copy, Debug, Args)]
+#[command(next_help_heading = "Run")]
+pub struct ThreadArgs {
     /// Threads to use [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub threads: Option<u32>,
-    #[command(flatten)]
-    #[allow(missing_docs, reason = "a comment here would replace the help text")]
-    pub output: OutputArgs,
 }
 
 /// What is printed.
@@ -53,7 +70,7 @@ pub struct OutputArgs {
     pub json: bool,
 }
 
-impl EstimateArgs {
+impl FactorArgs {
     pub(super) fn apply(&self, params: &mut Params) {
         set(&mut params.mode, self.mode);
         set(&mut params.points, self.points);

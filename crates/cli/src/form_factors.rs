@@ -8,18 +8,23 @@ use super::terminal::Terminal;
 use crate::error::Error;
 use crate::report::Report;
 use radiosity::cache::Store;
-use radiosity::{By, Context, FactorTable, Project, estimate, subdivide};
+use radiosity::resources::check_export;
+use radiosity::words::bytes;
+use radiosity::{Context, FactorTable, Observer, Project, estimate, matrix_bytes, subdivide};
 use std::path::{Path, PathBuf};
+
+/// Exports of so many bytes are announced.
+const LARGE: u64 = 500_000_000;
 
 pub(super) fn run(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
     let export = args.export.as_deref();
     if let Some(path) = export {
-        check_export(path, args)?;
+        check_arguments(path, args)?;
     }
     let Project {
         scene, mut params, ..
     } = args.scene.load(site)?;
-    args.estimate.apply(&mut params.form_factors);
+    args.estimate.factors.apply(&mut params.form_factors);
     params.check().map_err(radiosity::Error::from)?;
     let terminal = Terminal::new(args.estimate.output);
     with_threads(args.estimate.threads, || {
@@ -28,17 +33,17 @@ pub(super) fn run(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
         let patches = subdivide(&scene, &params.discretization, context)?;
         let factors = estimate(&patches, &params.form_factors)?;
         let mut report = Report::new(&patches, &terminal);
+        let is_whole = args.by == ByArg::Patch && args.sparse.is_none();
+        if let Some(path) = export.filter(|_| is_whole) {
+            announce(path, patches.mesh.patches.len(), &terminal)?;
+        }
         let made = match args.recompute {
             true => factors.made_anew(),
             false => factors.made(),
         }?;
         report.form_factors(&made.origin, &made.rows, &factors);
         if let Some(path) = export {
-            let by = match args.by {
-                ByArg::Patch => By::Patch,
-                ByArg::Surface => By::Surface,
-                ByArg::Group => By::Group,
-            };
+            let by = args.by.into();
             let table = FactorTable::new(&scene, &patches.mesh, &made.form_factors, by)?;
             let rows_path = export_table(&table, path, context.cache, args)?;
             report.output("export", path);
@@ -49,7 +54,7 @@ pub(super) fn run(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
 }
 
 /// Refuses what cannot be written, before anything is computed for it.
-fn check_export(path: &Path, args: &FormFactorsCommand) -> Result<(), Error> {
+fn check_arguments(path: &Path, args: &FormFactorsCommand) -> Result<(), Error> {
     if args.sparse.is_some() && is_npy(path) {
         return Err(Error::with_help(
             "--sparse is for .csv alone",
@@ -57,6 +62,29 @@ fn check_export(path: &Path, args: &FormFactorsCommand) -> Result<(), Error> {
         ));
     }
     check_folder_of(path)
+}
+
+/// Says how large a matrix between all patches will be, if it is large, and refuses one that does
+/// not fit on the disk, before anything is computed for it.
+fn announce(path: &Path, patches: usize, terminal: &Terminal) -> Result<(), Error> {
+    let [of_npy, of_csv] = matrix_bytes(patches as u64);
+    let (size, at_most) = if is_npy(path) {
+        (of_npy, "")
+    } else {
+        (of_csv, "up to ")
+    };
+    if size >= LARGE {
+        terminal.note(&format!(
+            "warning: the export will take {at_most}{} of disk; `--by surface` and `--sparse 1e-6` \
+             write less, and a path that ends in .npy takes {}",
+            bytes(size),
+            bytes(of_npy),
+        ));
+    }
+    if is_npy(path) {
+        check_export(path, size)?;
+    }
+    Ok(())
 }
 
 /// Writes the matrix, and beside it what its rows are; gives the path of that.

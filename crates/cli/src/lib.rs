@@ -46,7 +46,7 @@ pub use args::{
 };
 pub use cache_args::{CacheAction, CacheCommand, CleanArgs};
 pub use compare_args::CompareCommand;
-pub use estimate_args::{CacheArgs, EstimateArgs, OutputArgs};
+pub use estimate_args::{CacheArgs, EstimateArgs, FactorArgs, OutputArgs, ThreadArgs};
 pub use image_args::{DisplayArgs, ImageArgs};
 pub use light_args::LightArgs;
 pub use reference_args::ReferenceCommand;

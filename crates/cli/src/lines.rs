@@ -35,9 +35,19 @@ pub(crate) fn closed_line(rows: &RowSummary) -> String {
     )
 }
 
+/// A change of a factor, in relation to itself, that is a rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// How rows were made to sum to 1, if they were.
 pub(crate) fn closure_line(rows: &RowSummary) -> Option<String> {
     let closure = rows.closure?;
+    if closure.largest_change < ROUNDING {
+        return Some(
+            "note: closure changed nothing: it is for patches that see fronts alone, and there are \
+             none, or their rows sum to 1 already"
+                .to_owned(),
+        );
+    }
     Some(format!(
         "rows that see fronts alone were scaled to sum to 1: factors changed by {:.1e} of \
          themselves at most",

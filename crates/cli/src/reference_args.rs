@@ -1,5 +1,6 @@
 //! `reference`, as clap reads it.
 
+use super::estimate_args::ThreadArgs;
 use super::image_args::{ImageArgs, OF_PICTURES};
 use super::parse::{parse_counts, parse_positive};
 use super::scene_args::OutsideArgs;
@@ -69,14 +70,8 @@ pub struct ReferenceCommand {
     /// Folder for the results [default: out]
     #[arg(help_heading = "Results", long, short, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Threads to use [default: all]
-    #[arg(
-        help_heading = "Run",
-        long,
-        value_name = "N",
-        value_parser = clap::value_parser!(u32).range(1..=1024),
-    )]
-    pub threads: Option<u32>,
+    #[command(flatten)]
+    pub threads: ThreadArgs,
     /// Print one JSON object on standard output, and everything else on standard error
     #[arg(help_heading = "Run", long)]
     pub json: bool,

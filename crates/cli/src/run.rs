@@ -5,7 +5,7 @@ use super::cache_folder;
 use super::check;
 use super::compare;
 use super::display;
-use super::estimate_args::EstimateArgs;
+use super::estimate_args::{EstimateArgs, ThreadArgs};
 use super::form_factors;
 use super::inspect;
 use super::reference;
@@ -17,8 +17,8 @@ use crate::plot::convergence_plot;
 use crate::report::Report;
 use radiosity::cache::{Changed, Store, replace_file_by};
 use radiosity::solver::Params;
-use radiosity::stages::{Factors, FormFactorsMade, Solved};
-use radiosity::{Context, Project, estimate, radiosity_table, subdivide};
+use radiosity::stages::{Factors, FormFactorsMade, Solved, mean_irradiance};
+use radiosity::{Context, LightTable, Project, estimate, subdivide};
 use radiosity_simd::InstructionSet;
 use std::io;
 use std::path::Path;
@@ -62,7 +62,7 @@ fn solve(args: &SolveCommand, site: &Site, is_anew: bool) -> Result<(), Error> {
     let Project {
         scene, mut params, ..
     } = args.scene.load(site)?;
-    args.estimate.apply(&mut params.form_factors);
+    args.estimate.factors.apply(&mut params.form_factors);
     args.solve.apply(&mut params.solver);
     params.check().map_err(radiosity::Error::from)?;
     let dimming = args.lights.dimming(&scene)?;
@@ -76,12 +76,15 @@ fn solve(args: &SolveCommand, site: &Site, is_anew: bool) -> Result<(), Error> {
         let patches = subdivide(&scene, &params.discretization, context)?;
         let factors = estimate(&patches, &params.form_factors)?;
         let mut report = Report::new(&patches, &terminal);
-        let how = (is_anew, args.plot.is_some());
+        let needs_factors = args.plot.is_some() || args.export.is_some();
+        let how = (is_anew, needs_factors);
         let (solved, _held) = solved(&factors, &params.solver, how, &mut report)?;
         let light = solved.relight(&dimming)?;
         report.solution(&solved, &patches, &dimming, &light.energy);
         if let Some(path) = &args.export {
-            let table = radiosity_table(&scene, &patches.mesh, &light.mean_radiosity());
+            let irradiance = mean_irradiance(&factors, &light)?;
+            let mesh = &patches.mesh;
+            let table = LightTable::new(&scene, mesh, &light, &irradiance, args.by.into());
             write(path, context.cache, &table.to_csv())?;
             report.output("export", path);
         }
@@ -127,10 +130,10 @@ pub(super) fn store(args: &EstimateArgs, site: &Site) -> Option<Store> {
 
 /// Runs with so many threads, or as many as there are processors.
 pub(super) fn with_threads(
-    threads: Option<u32>,
+    args: ThreadArgs,
     run: impl FnOnce() -> Result<(), Error> + Send,
 ) -> Result<(), Error> {
-    let count = threads.map_or(0, |count| count as usize);
+    let count = args.threads.map_or(0, |count| count as usize);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
     pool?.install(run)
 }

@@ -94,9 +94,9 @@ impl Table {
 /// Why tables cannot be read or compared.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TableError {
-    /// The first line is another.
+    /// The first line lacks a column.
     #[error(
-        "must begin with the columns surface,ia,ib,B_r,B_g,B_b (and may go on with se_r,se_g,se_b)"
+        "must have the columns surface,ia,ib,B_r,B_g,B_b (and may have se_r,se_g,se_b and others)"
     )]
     Columns,
     /// A line is wrong.
@@ -157,8 +157,8 @@ const COLUMNS: [&str; 9] = [
 /// How many columns a table has that does not tell of errors.
 const WITHOUT_ERRORS: usize = 6;
 
-/// Reads a table: the columns `surface,ia,ib,B_r,B_g,B_b`, with or without `se_r,se_g,se_b`. Names
-/// may have an apostrophe before them, as [`table_name`] says.
+/// Reads a table: the columns `surface,ia,ib,B_r,B_g,B_b`, with or without `se_r,se_g,se_b`; others
+/// are passed over. Names may have an apostrophe before them, as [`table_name`] says.
 ///
 /// ```
 /// use radiosity_compare::parse_table;
@@ -177,14 +177,12 @@ pub fn parse_table(bytes: &[u8]) -> Result<Table, TableError> {
         .headers()
         .map_err(|error| csv_problem(&error))?
         .clone();
-    if !(header == COLUMNS[..WITHOUT_ERRORS] || header == COLUMNS[..]) {
-        return Err(TableError::Columns);
-    }
+    let columns = Columns::of(&header).ok_or(TableError::Columns)?;
     let mut table = Table::default();
     let mut seen = HashSet::new();
     for record in reader.records() {
         let record = record.map_err(|error| csv_problem(&error))?;
-        let row = parse_row(&record)?;
+        let row = columns.row(&record)?;
         if !seen.insert((row.surface.clone(), row.cell)) {
             return Err(TableError::Line {
                 line: row.line,
@@ -204,28 +202,43 @@ fn csv_problem(error: &csv::Error) -> TableError {
     }
 }
 
-fn parse_row(record: &csv::StringRecord) -> Result<Row, TableError> {
-    let line = record.position().map_or(1, csv::Position::line);
-    let problem = |column: usize, expected: &str| TableError::Line {
-        line,
-        problem: format!(
-            "`{}` is no {expected}: {}",
-            &record[column], COLUMNS[column]
-        ),
-    };
-    let index = |column: usize| record[column].parse::<u32>();
-    let index = |column| index(column).map_err(|_| problem(column, "whole number"));
-    let number = |column: usize| match record[column].parse::<f64>() {
-        Ok(number) if number.is_finite() => Ok(number),
-        _ => Err(problem(column, "number")),
-    };
-    let numbers = |first: usize| Ok([number(first)?, number(first + 1)?, number(first + 2)?]);
-    let has_errors = record.len() > WITHOUT_ERRORS;
-    Ok(Row {
-        line,
-        surface: name_in_table(&record[0]).to_owned(),
-        cell: [index(1)?, index(2)?],
-        radiosity: numbers(3)?,
-        standard_error: has_errors.then(|| numbers(6)).transpose()?,
-    })
+/// Where the columns of a table are.
+struct Columns {
+    places: Vec<usize>,
+}
+
+impl Columns {
+    /// Those of errors count if all three are there; others may be there too.
+    fn of(header: &csv::StringRecord) -> Option<Columns> {
+        let place = |name: &&str| header.iter().position(|column| column == *name);
+        let places: Option<Vec<usize>> = COLUMNS[..WITHOUT_ERRORS].iter().map(place).collect();
+        let errors: Option<Vec<usize>> = COLUMNS[WITHOUT_ERRORS..].iter().map(place).collect();
+        let mut places = places?;
+        places.extend(errors.into_iter().flatten());
+        Some(Columns { places })
+    }
+
+    fn row(&self, record: &csv::StringRecord) -> Result<Row, TableError> {
+        let line = record.position().map_or(1, csv::Position::line);
+        let field = |column: usize| &record[self.places[column]];
+        let problem = |column: usize, expected: &str| TableError::Line {
+            line,
+            problem: format!("`{}` is no {expected}: {}", field(column), COLUMNS[column]),
+        };
+        let index = |column: usize| field(column).parse::<u32>();
+        let index = |column| index(column).map_err(|_| problem(column, "whole number"));
+        let number = |column: usize| match field(column).parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(number),
+            _ => Err(problem(column, "number")),
+        };
+        let numbers = |first: usize| Ok([number(first)?, number(first + 1)?, number(first + 2)?]);
+        let has_errors = self.places.len() > WITHOUT_ERRORS;
+        Ok(Row {
+            line,
+            surface: name_in_table(field(0)).to_owned(),
+            cell: [index(1)?, index(2)?],
+            radiosity: numbers(3)?,
+            standard_error: has_errors.then(|| numbers(6)).transpose()?,
+        })
+    }
 }

@@ -155,7 +155,8 @@ impl<'a> Estimation<'a> {
         let mut done = 0;
         let mut next = 0;
         while done < pairs {
-            let batch = rayon::current_num_threads() as u64;
+            // More and more at once: at the end of each batch threads wait for the slowest pair.
+            let batch = next.max(rayon::current_num_threads() as u64);
             done += (next..next + batch).into_par_iter().map(run).sum::<u64>();
             next += batch;
         }

@@ -56,6 +56,14 @@ enum Entries<'a> {
     OfParts(LumpedFactors),
 }
 
+/// Bytes of a matrix between so many patches, surfaces or groups: as `.npy`, and at most about as
+/// `.csv`, where most of what a number of seven digits takes is its place.
+pub fn matrix_bytes(rows: u64) -> [u64; 2] {
+    const OF_HEADER: u64 = 128;
+    const OF_NUMBER: u64 = 14;
+    [OF_HEADER + 4 * rows * rows, OF_NUMBER * rows * rows]
+}
+
 /// Rows that are computed at a time.
 const ROWS_AT_A_TIME: usize = 64;
 

@@ -12,6 +12,7 @@
 //! machine need: names in errors, a cache, progress, and a look at the memory before it is taken.
 //! Each stage has one struct of parameters, in its own crate.
 
+pub mod advice;
 mod artifact;
 mod batches;
 mod closed;
@@ -25,6 +26,7 @@ mod factor_export;
 pub mod facts;
 pub mod inspect;
 mod job;
+mod light_export;
 mod machine;
 mod observer;
 pub mod openings;
@@ -42,7 +44,8 @@ pub use artifact::{How, Origin};
 pub use context::Context;
 pub use error::Error;
 pub use export::{cells, of_cells, patch_at, radiosity_table, reference_table};
-pub use factor_export::{By, FactorTable};
+pub use factor_export::{By, FactorTable, matrix_bytes};
+pub use light_export::{LightTable, light_table_bytes};
 pub use observer::{Observer, Silent, Stage};
 pub use project::{Params, Project};
 pub use remedy::Remedy;

@@ -1,4 +1,4 @@
-//! What a long run will take, said before it begins.
+//! What a run will take, said before it begins.
 
 use crate::job::Job;
 use crate::resources::Needs;
@@ -11,20 +11,37 @@ const PREDICTED_FROM: u64 = 20_000_000;
 /// A timed sample goes on until it has taken so many seconds, or done one in so many of the run's
 /// pairs of points: fewer may all be of patches that see nothing of each other, or more of each
 /// other than most.
-const LONG_ENOUGH: f64 = 0.1;
+const LONG_ENOUGH: f64 = 0.2;
 const SAMPLE_ONE_IN: u64 = 40;
 /// With more points along an edge, or more pairs of points, a timed sample takes these.
 const MOST_POINTS: u32 = 16;
 const MOST_POINT_PAIRS: u32 = 4096;
 
-/// Pairs, time, memory and disk of an estimation of which so many pairs are left, the
-/// time from a timed sample; `None` if it will be over soon.
+/// Pairs, time, memory and disk of an estimation of which so many pairs are left; `None` if it will
+/// be over soon.
 pub(crate) fn prediction(
     needs: &Needs,
     left: u64,
     estimation: &Estimation<'_>,
     job: &Job<'_>,
 ) -> Option<String> {
+    let seconds = predicted_seconds(left, estimation, job).filter(|seconds| *seconds >= 1.0)?;
+    Some(format!(
+        "{} pairs of patches: {}, {} of memory, {} of disk",
+        grouped(needs.pairs),
+        duration(seconds),
+        bytes(needs.memory),
+        bytes(needs.disk),
+    ))
+}
+
+/// How long an estimation takes of which so many pairs are left, from a timed sample; `None` if that
+/// is not worth a sample.
+pub(crate) fn predicted_seconds(
+    left: u64,
+    estimation: &Estimation<'_>,
+    job: &Job<'_>,
+) -> Option<f64> {
     let work = left.saturating_mul(job.estimator.point_pairs());
     if work < PREDICTED_FROM {
         return None;
@@ -32,16 +49,7 @@ pub(crate) fn prediction(
     let (estimator, factor) = sampled(job.estimator);
     let smaller = (factor > 1.0).then(|| Estimation::new(job.mesh, estimator));
     let estimation = smaller.as_ref().unwrap_or(estimation);
-    let seconds = factor * left as f64 * seconds_per_pair(estimation, enough(left, factor));
-    (seconds >= 1.0).then(|| {
-        format!(
-            "{} pairs of patches: {}, {} of memory, {} of disk",
-            grouped(needs.pairs),
-            duration(seconds),
-            bytes(needs.memory),
-            bytes(needs.disk),
-        )
-    })
+    Some(factor * left as f64 * seconds_per_pair(estimation, enough(left, factor)))
 }
 
 /// An estimator that takes no longer than a timed sample should, and how many times as long the

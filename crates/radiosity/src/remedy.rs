@@ -24,6 +24,8 @@ pub enum Remedy {
     },
     /// Smaller pictures.
     SmallerPictures,
+    /// A table of fewer rows, or of fewer entries.
+    SmallerExport,
     /// Another folder for the cache, or none.
     CacheFolder,
     /// The same, on another disk.
@@ -59,6 +61,7 @@ impl Display for Remedy {
                 return write!(f, "cut surfaces into fewer patches: about {fit} fit");
             }
             Remedy::SmallerPictures => "make them smaller",
+            Remedy::SmallerExport => "export by surface or group, or leave small entries out",
             Remedy::CacheFolder => "keep the cache in another folder, or keep none",
             Remedy::CacheDisk => "keep the cache on another disk, or keep none",
             Remedy::RunAgain => "run the same again, which makes anew what is damaged",

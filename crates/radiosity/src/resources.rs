@@ -129,6 +129,21 @@ impl Needs {
     }
 }
 
+/// Refuses a file of so many bytes in a folder whose disk has less room.
+pub fn check_export(folder: &Path, needed: u64) -> Result<(), Error> {
+    match free_disk(folder) {
+        Some(free) if needed > free => Err(Error::Resources {
+            problem: format!(
+                "the export needs {} of disk, but only {} are free there",
+                bytes(needed),
+                bytes(free)
+            ),
+            remedy: Remedy::SmallerExport,
+        }),
+        _ => Ok(()),
+    }
+}
+
 /// Refuses pictures that do not fit into memory.
 pub fn check_image(width: u32, height: u32) -> Result<(), Error> {
     let needed = u64::from(width) * u64::from(height) * BYTES_PER_PIXEL;

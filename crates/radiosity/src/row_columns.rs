@@ -35,7 +35,7 @@ impl Column {
 }
 
 /// All that is known of a row, of a patch or a part of so much area, in the order of tables.
-pub(crate) fn columns(row: &RowFacts, area: f64) -> [Column; 8] {
+pub(crate) fn columns(row: &RowFacts, area: f64) -> [Column; 9] {
     // Whoever adds a field adds its column.
     let RowFacts {
         fronts,
@@ -46,11 +46,12 @@ pub(crate) fn columns(row: &RowFacts, area: f64) -> [Column; 8] {
         error,
         missed,
     } = *row;
-    let sky = if area == 0.0 {
-        0.0
-    } else {
-        1.0 - fronts - backs
+    // Errors may make more than 1 of what is seen; a share of nothing is none.
+    let sky = match area {
+        0.0 => 0.0,
+        _ => (1.0 - fronts - backs).max(0.0),
     };
+    let sky_error = error.map(|error| error + rays_error);
     let column = |name, value, digits| Column {
         name,
         value,
@@ -62,6 +63,7 @@ pub(crate) fn columns(row: &RowFacts, area: f64) -> [Column; 8] {
         column("background", Some(background), Digits::Nine),
         column("rays_error", Some(rays_error), Digits::Three),
         column("sky", Some(sky), Digits::Nine),
+        column("sky_error", sky_error, Digits::Three),
         column("error", error, Digits::Three),
         column("visible", Some(visible), Digits::Four),
         column("missed", error.map(|_| missed), Digits::Three),
@@ -117,11 +119,26 @@ mod tests {
     }
 
     #[test]
+    fn closed_rows_have_no_negative_sky() {
+        let closed = RowFacts {
+            fronts: 1.0 + 3e-5,
+            backs: 0.0,
+            background: 0.0,
+            rays_error: 0.0,
+            ..ROW
+        };
+        let texts = columns(&closed, 2.0).map(|column| column.text());
+        assert_eq!(texts[4..6], ["0.000000000", "1.00e-4"]);
+    }
+
+    #[test]
     fn covered_rows_have_no_sky_and_untold_errors_are_empty() {
         let texts = |row: &RowFacts, area| columns(row, area).map(|column| column.text());
         let known = texts(&ROW, 2.0);
-        assert_eq!(known[4..], ["0.100000000", "1.00e-4", "0.5000", "2.00e-5"]);
+        let expected = ["0.100000000", "1.01e-2", "1.00e-4", "0.5000", "2.00e-5"];
+        assert_eq!(known[4..], expected);
         let untold = RowFacts { error: None, ..ROW };
-        assert_eq!(texts(&untold, 0.0)[4..], ["0.000000000", "", "0.5000", ""]);
+        let expected = ["0.000000000", "", "", "0.5000", ""];
+        assert_eq!(texts(&untold, 0.0)[4..], expected);
     }
 }

@@ -33,7 +33,7 @@ pub use exposure::expose;
 pub use factors::{Factors, FormFactorsMade, estimate};
 pub use light::PatchLight;
 pub use patches::{Patches, subdivide};
-pub use pictures::{Quantity, Shown, render, render_by, save_png, show};
+pub use pictures::{Quantity, Shown, mean_irradiance, render, render_by, save_png, show};
 pub use solution::{Solved, solve, solve_anew};
 
 #[cfg(test)]

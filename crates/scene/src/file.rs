@@ -15,9 +15,11 @@ pub(crate) struct SceneFile {
     pub(crate) camera: Option<Spanned<CameraTable>>,
     #[serde(default)]
     pub(crate) views: Vec<ViewTable>,
+    #[serde(default)]
     pub(crate) materials: BTreeMap<Spanned<String>, MaterialTable>,
     #[serde(default)]
     pub(crate) lights: BTreeMap<Spanned<String>, LightTable>,
+    #[serde(default)]
     pub(crate) surfaces: Vec<Spanned<SurfaceTable>>,
 }
 

@@ -98,6 +98,11 @@ fn scene(
     mesh_files: MeshFiles,
 ) -> Result<(Scene, Vec<String>), SceneError> {
     let path = source.path;
+    if file.surfaces.is_empty() {
+        let help = "add [[surfaces]], each with a `name`, a `material` and a shape like \
+                    quad = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]";
+        return Err(SceneError::of_file(path, "the scene has no surfaces", help));
+    }
     let camera = file.camera.as_ref().map(|table| camera(&source, table));
     let (mut materials, names) = materials(&source, file.materials)?;
     let lights = lights(&source, &names, &file.lights)?;

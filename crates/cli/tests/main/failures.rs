@@ -35,6 +35,9 @@ fn failures_are_explained() {
     let blind = SCENE.split("[image]").nth(1).unwrap();
     place.write("blind.toml", &format!("[image]{blind}"));
     place.write("file", "");
+    place.write("empty.toml", "");
+    place.write("picture.toml", "P6\n1 1\n255\n...");
+    place.write("model.glb", "glTF...");
     place.write(
         "plate.vs3",
         "F 3\nV 1 0 0 0\nV 2 1 0 0\nV 3 0 1 0\nS 1 1 2 3 0 0 0 0.9 plate\n",
@@ -44,6 +47,9 @@ fn failures_are_explained() {
         "render missing.toml",
         "render nothing",
         "render blind.toml",
+        "check empty.toml",
+        "check picture.toml",
+        "render model.glb",
         "render plate.vs3",
         "reference plate.vs3",
         "render room.toml --patches 900",

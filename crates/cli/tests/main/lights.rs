@@ -1,17 +1,15 @@
 //! Lights that are dimmed without solving.
 
+use crate::export::{number, read_table};
 use crate::place::{Place, SCENE};
 use radiosity::{Context, Error, Project, Silent, estimate, solve, subdivide};
 use std::fs;
 
 /// The radiosities of a table, without its names.
 fn radiosities(place: &Place, name: &str) -> Vec<f64> {
-    let text = fs::read_to_string(place.path(name)).unwrap();
-    let fields = text
-        .lines()
-        .skip(1)
-        .flat_map(|line| line.rsplit(',').take(3));
-    fields.map(|field| field.parse().unwrap()).collect()
+    let rows = read_table(place, name);
+    let of_row = |row: &_| ["B_r", "B_g", "B_b"].map(|column| number(row, column));
+    rows.iter().flat_map(of_row).collect()
 }
 
 /// The room with a second lamp.

@@ -7,11 +7,12 @@ use crate::covers;
 use crate::error::Error;
 use crate::facts::{self, CLOSURE, FORM_FACTORS, FactorFacts};
 use crate::job::Job;
+use crate::prediction::predicted_seconds;
 use crate::remedy::Remedy;
 use crate::row_columns::is_finite;
 use crate::rows::RowSummary;
 use radiosity_cache::{Id, Key, Miss, Store};
-use radiosity_form_factors::{self as form_factors, FormFactors, Mode, Params};
+use radiosity_form_factors::{self as form_factors, Estimation, FormFactors, Mode, Params};
 use radiosity_matrix::SymmetricMatrix;
 use radiosity_params::Parameters;
 use radiosity_solver::SolveError;
@@ -94,6 +95,14 @@ impl<'a> Factors<'a> {
             }
             Mode::Accurate => None,
         }
+    }
+
+    /// About how many seconds it takes here to estimate them, from a timed sample; 0 if it takes
+    /// less than a sample does.
+    pub fn forecast(&self) -> f64 {
+        let job = self.job();
+        let estimation = Estimation::new(job.mesh, job.estimator);
+        predicted_seconds(job.needs().pairs, &estimation, &job).unwrap_or(0.0)
     }
 
     fn made_from(&self, sources: Sources) -> Result<Arc<FormFactorsMade>, Error> {

@@ -1,5 +1,6 @@
 //! Stage 1: the patches of a scene.
 
+use crate::advice;
 use crate::context::Context;
 use crate::error::Error;
 use radiosity_cache::{Id, Key};
@@ -36,6 +37,9 @@ pub fn subdivide<'a>(
     let surfaces = params.of_shapes(scene.shapes());
     let mesh = subdivide_in(FaceOrder::Curve, &surfaces, params.default);
     let mesh = mesh.map_err(|error| Error::of_mesh(scene, params, &error))?;
+    for note in advice::notes(scene, &mesh) {
+        context.observer.note(&note);
+    }
     let patches = mesh.patches.len();
     let material = |patch: usize| {
         let face = mesh.face_of(patch);

@@ -129,6 +129,19 @@ pub fn show(factors: &Factors<'_>, light: &PatchLight, quantity: Quantity) -> Re
     })
 }
 
+/// The mean of what arrives at patches, hidden parts included, W/m^2: with the mean radiosity `B`,
+/// emission `E` and reflectance `rho`, it is the `H` of `B = E + rho H`. It makes the form factors,
+/// if nobody holds them.
+pub fn mean_irradiance(factors: &Factors<'_>, light: &PatchLight) -> Result<Vec<[f32; 3]>, Error> {
+    let of_elements = light.radiosity_of_elements(factors.params.mode);
+    let whole = vec![1.0; of_elements.len()];
+    Ok(irradiance(
+        &factors.made()?.form_factors,
+        &of_elements,
+        &whole,
+    ))
+}
+
 /// What a camera sees of what a renderer shows.
 pub fn render_by(
     renderer: &Renderer<'_>,
