@@ -16,15 +16,29 @@ use std::path::PathBuf;
 /// The stages, and what helps with them.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Render a scene: form factors, solution and both pictures, each computed only if needed
+    /// Make pictures of a scene, and all that they need
+    ///
+    /// Form factors and solution are computed only if they are not cached; pictures are always made
+    /// anew. A change of camera, exposure, or brightness of lamps needs pictures alone; of colours
+    /// or lamps, the solution too; of shapes or patches, everything.
     Render(DisplayCommand),
-    /// Compute the form factors (view factors) of a scene, cache them, and write them on request
+    /// Compute the form factors (view factors) of a scene, and write them on request
+    ///
+    /// They are computed only if they are not cached (--recompute: even then). Nothing is solved.
     FormFactors(FormFactorsCommand),
-    /// Solve anew for the radiosities, with cached form factors where possible
+    /// Solve for the radiosities, and write them on request
+    ///
+    /// The solution is always computed anew, form factors only if they are not cached. No picture
+    /// is made.
     Solve(SolveCommand),
-    /// Dim and tint lights without solving: the radiosities of a cached solution, recombined
+    /// Dim and tint lights without solving
+    ///
+    /// The solution keeps what each light makes by itself, so that it is only recombined. It is
+    /// computed only if it is not cached, and form factors too. No picture is made.
     Relight(SolveCommand),
-    /// Make the pictures anew, with a cached solution where possible
+    /// Make pictures of a solution; the same as `render`
+    ///
+    /// Pictures are always made anew, form factors and solution only if they are not cached.
     Display(DisplayCommand),
     /// Trace a scene by random walks: the unbiased picture or patch radiosities that others are
     /// judged by, with standard errors

@@ -28,22 +28,25 @@ pub struct EstimateArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Form factors")]
 pub struct FactorArgs {
-    /// Estimator of the form factors
+    /// Estimator of the form factors [default: the scene's, or accurate]
     #[arg(long, value_parser = choice::<Mode>(&MODES))]
     pub mode: Option<Mode>,
-    /// Points (or random strata) along each edge of a patch, 1 to 64
+    /// Points (or random strata) along each edge of a patch, 1 to 64, of regular and monte-carlo
+    /// [default: the scene's, or 3]
     #[arg(long, value_name = "N")]
     pub points: Option<u32>,
     /// Pairs of points per pair of patches, for monte-carlo [default: points^2]
     #[arg(long, value_name = "N")]
     pub pairs: Option<u32>,
-    /// Aimed error of accurate: the sum over a row of |error of F_ij|, 1e-6 to 0.1
+    /// Aimed error of accurate form factors, 1e-6 to 0.1 [default: the scene's, or 5e-4]
+    ///
+    /// It is the sum of the absolute errors of all form factors from a patch.
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
-    /// Seed of the random points of monte-carlo
+    /// Seed of the random points of monte-carlo [default: the scene's, or 0]
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
-    /// Scale the factors so that rows sum to 1 where patches see fronts alone; reciprocity is kept
+    /// Scale the form factors from patches that see fronts alone to sum to 1; reciprocity is kept
     #[arg(long)]
     pub closure: bool,
 }
@@ -61,11 +64,10 @@ pub struct ThreadArgs {
 #[derive(Clone, Copy, Debug, Args)]
 #[command(next_help_heading = "Run")]
 pub struct OutputArgs {
-    /// Print more: what rows of form factors sum to, how the solver converges, names of cached
-    /// files
+    /// Print more: sums of form factors, convergence of the solver, names of cached files
     #[arg(long, short)]
     pub verbose: bool,
-    /// Print one JSON object on standard output, and everything else on standard error
+    /// Print one JSON object on standard output; all else goes to standard error
     #[arg(long)]
     pub json: bool,
 }
@@ -98,7 +100,7 @@ pub struct CacheArgs {
     /// platform's cache folder]
     #[arg(long = "cache", value_name = "DIR")]
     pub folder: Option<PathBuf>,
-    /// Compute everything, read and write no cached file
+    /// Compute everything; read and write no cached file
     #[arg(long, conflicts_with = "folder")]
     pub no_cache: bool,
 }

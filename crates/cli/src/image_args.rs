@@ -26,18 +26,19 @@ pub(super) const OF_PICTURES: [&str; 7] = [
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Pictures")]
 pub struct ImageArgs {
-    /// Size of the picture in pixels, as WIDTHxHEIGHT
+    /// Size of the picture in pixels [default: the scene's, or 640x480]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
-    /// Sub-pixels along each edge of a pixel
+    /// Sub-pixels along each edge of a pixel [default: the scene's, or 2]
     #[arg(long, value_name = "N")]
     pub subpixels: Option<u32>,
-    /// How samples are spread around pixels and their parts
+    /// How samples are spread around pixels and their parts [default: the scene's, or tents]
     #[arg(long, value_parser = choice::<PixelFilter>(&FILTERS))]
     pub filter: Option<PixelFilter>,
-    /// Factor from radiance to brightness, or auto: one for all pictures of the run, by which 98 %
-    /// of what they show, lamps left out, are less bright than 0.8 of a screen [default: the
-    /// scene's, or auto]
+    /// Factor from radiance to brightness, or auto [default: the scene's, or auto]
+    ///
+    /// By auto, all pictures of a run have one exposure, which is printed: 98 % of what they show,
+    /// lamps left out, is less bright than 0.8 of a screen.
     #[arg(
         long,
         value_name = "X|auto",
@@ -45,7 +46,7 @@ pub struct ImageArgs {
         allow_negative_numbers = true,
     )]
     pub exposure: Option<Exposure>,
-    /// What becomes of what is brighter than a screen
+    /// What becomes of what is brighter than a screen [default: the scene's, or clamp]
     #[arg(long, value_parser = choice::<Curve>(&TONES))]
     pub tone: Option<Curve>,
     /// Exponent of the screen, or srgb [default: the scene's, or srgb]
@@ -83,7 +84,7 @@ pub struct DisplayArgs {
     /// scene's, or true]
     #[arg(long, value_name = "BOOL", action = clap::ArgAction::Set)]
     pub clamp_samples: Option<bool>,
-    /// Samples per sub-pixel
+    /// Samples per sub-pixel [default: the scene's, or 4]
     #[arg(long, value_name = "N")]
     pub samples: Option<u32>,
     /// How light that comes straight from emitters is shown: as patches have it, in a

@@ -13,6 +13,7 @@ mod error;
 mod estimate_args;
 mod fit;
 mod form_factors;
+mod help;
 mod image_args;
 mod input;
 mod inspect;
@@ -47,6 +48,7 @@ pub use args::{
 pub use cache_args::{CacheAction, CacheCommand, CleanArgs};
 pub use compare_args::CompareCommand;
 pub use estimate_args::{CacheArgs, EstimateArgs, FactorArgs, OutputArgs, ThreadArgs};
+pub use help::with_examples;
 pub use image_args::{DisplayArgs, ImageArgs};
 pub use light_args::LightArgs;
 pub use reference_args::ReferenceCommand;

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Lights")]
 pub struct LightArgs {
-    /// Make a light darker or brighter than its materials say, by a factor; once for each light
+    /// Factor on the brightness of a light; once for each light
     #[arg(long, value_name = "LIGHT=X", value_parser = parse_dim)]
     pub dim: Vec<(String, f64)>,
     /// Factors on the red, green and blue of a light; once for each light

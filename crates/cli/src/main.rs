@@ -1,20 +1,68 @@
 //! The `radiosity` command.
 
-use clap::Parser;
-use radiosity_cli::{Command, Site, parse_command_line, run};
+use clap::{CommandFactory, Parser, Subcommand};
+use clap_complete::Shell;
+use radiosity_cli::{Command, Site, parse_command_line, run, with_examples};
+use std::fs;
+use std::io::{self, Write};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Diffuse global illumination by finite elements: form factors once, everything else at once
 #[derive(Debug, Parser)]
-#[command(version, after_help = radiosity_cli::EXIT_CODES)]
+#[command(name = "radiosity", version, after_help = radiosity_cli::EXIT_CODES)]
 struct Cli {
     #[command(subcommand)]
-    command: Command,
+    task: Task,
+}
+
+#[derive(Debug, Subcommand)]
+enum Task {
+    #[command(flatten)]
+    Radiosity(Box<Command>),
+    /// Print a script that completes commands and options in a shell
+    Completions {
+        /// Whose script
+        shell: Shell,
+    },
+    /// Write man pages, one for each command
+    Man {
+        /// Folder for the pages
+        #[arg(default_value = ".")]
+        folder: PathBuf,
+    },
 }
 
 fn main() -> ExitCode {
-    match parse_command_line::<Cli>() {
-        Ok(cli) => run(&cli.command, &Site::installed()),
-        Err(code) => code,
+    let task = match parse_command_line::<Cli>() {
+        Ok(cli) => cli.task,
+        Err(code) => return code,
+    };
+    let command = with_examples(Cli::command());
+    let (what, written) = match task {
+        Task::Radiosity(command) => return run(&command, &Site::installed()),
+        Task::Completions { shell } => ("standard output".into(), complete(shell, command)),
+        Task::Man { folder } => {
+            let made = fs::create_dir_all(&folder);
+            let written = made.and_then(|()| clap_mangen::generate_to(command, &folder));
+            (folder, written)
+        }
+    };
+    match written {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: cannot write {}: {error}", what.display());
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn complete(shell: Shell, mut command: clap::Command) -> io::Result<()> {
+    let script = &mut Vec::new();
+    clap_complete::generate(shell, &mut command, "radiosity", script);
+    match io::stdout().write_all(script) {
+        // That nobody reads all of it is no error.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        result => result,
     }
 }

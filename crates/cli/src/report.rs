@@ -5,6 +5,7 @@ use crate::lines::{
     class_line, closed_line, closure_line, error_line, indented, labelled, missed_line, row_line,
     scene_line, unbalanced_lines,
 };
+use crate::save::Written;
 use crate::solve_report::{SolveReport, solution_details, solution_lines};
 use crate::terminal::{Terminal, say_json};
 use radiosity::darkness;
@@ -16,7 +17,7 @@ use radiosity::{How, Origin};
 use radiosity::{RowReport, RowSummary};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Collects what happened; prints each line as soon as it is known.
 pub(crate) struct Report<'a> {
@@ -166,14 +167,15 @@ impl<'a> Report<'a> {
     }
 
     /// Many files, of which not all are told to people.
-    pub(crate) fn outputs(&mut self, files: BTreeMap<String, PathBuf>) {
+    pub(crate) fn outputs(&mut self, files: BTreeMap<String, Written>) {
         let more = files.len().saturating_sub(MOST_TOLD);
-        for (index, (name, path)) in files.into_iter().enumerate() {
+        for (index, (name, Written { path, replaced })) in files.into_iter().enumerate() {
+            let path = path.display().to_string();
             if more <= 1 || index < MOST_TOLD {
-                self.output(&name, &path);
-            } else {
-                self.json.outputs.insert(name, path.display().to_string());
+                let how = if replaced { " (replaced)" } else { "" };
+                self.terminal.line(&indented(&format!("{path}{how}")));
             }
+            self.json.outputs.insert(name, path);
         }
         if more > 1 {
             self.terminal

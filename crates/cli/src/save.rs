@@ -25,7 +25,14 @@ pub(super) struct Folder<'a> {
     scene: String,
     metadata: Vec<(&'static str, String)>,
     /// The files that are written, by their names in reports.
-    pub(super) written: BTreeMap<String, PathBuf>,
+    pub(super) written: BTreeMap<String, Written>,
+}
+
+/// A file that is written.
+pub(crate) struct Written {
+    pub(crate) path: PathBuf,
+    /// Whether it has taken the place of another.
+    pub(crate) replaced: bool,
 }
 
 impl<'a> Folder<'a> {
@@ -83,13 +90,14 @@ impl<'a> Folder<'a> {
         for (index, &format) in self.formats.iter().enumerate() {
             let (label, ending) = format.label_and_ending();
             let path = self.path.join(format!("{}-{name}.{ending}", self.scene));
+            let replaced = path.exists();
             write(&path, self.cache, &self.encoded(name, print, format))?;
             let name = if index == 0 {
                 name.to_owned()
             } else {
                 format!("{name}_{label}")
             };
-            self.written.insert(name, path);
+            self.written.insert(name, Written { path, replaced });
         }
         Ok(())
     }
@@ -102,8 +110,10 @@ impl<'a> Folder<'a> {
     ) -> Result<(), Error> {
         let path = self.path.join(format!("{}-sheet.png", self.scene));
         let bytes = encode(sheet, PictureFormat::Png(transfer), &self.metadata);
+        let replaced = path.exists();
         write(&path, self.cache, &bytes)?;
-        self.written.insert("sheet".to_owned(), path);
+        let written = Written { path, replaced };
+        self.written.insert("sheet".to_owned(), written);
         Ok(())
     }
 

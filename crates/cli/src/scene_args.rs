@@ -18,8 +18,9 @@ pub struct SceneArgs {
     #[command(flatten)]
     #[allow(missing_docs, reason = "a comment here would replace the help text")]
     pub outside: OutsideArgs,
-    /// Patches along each edge of a surface, as N or AxB, instead of the scene's default;
-    /// surfaces with divisions of their own keep them
+    /// Patches along each edge of a surface, as N or AxB [default: the scene's, or 12]
+    ///
+    /// Surfaces with divisions of their own keep them.
     #[arg(
         long,
         alias = "patches",
@@ -28,7 +29,7 @@ pub struct SceneArgs {
         conflicts_with = "max_patch_edge",
     )]
     pub divisions: Option<(u32, u32)>,
-    /// Longest edge of a patch, in scene units, instead of the scene's default
+    /// Longest edge of a patch, in scene units, instead of --divisions
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
     pub max_patch_edge: Option<f64>,
 }

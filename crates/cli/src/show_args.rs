@@ -8,8 +8,7 @@ use clap::Args;
 #[derive(Debug, Args)]
 #[command(next_help_heading = "What is shown")]
 pub struct ShowArgs {
-    /// What pictures show: light as an eye would see it, or quantities in false colours [default:
-    /// light]
+    /// What pictures show: light as an eye sees it, or numbers in false colours [default: light]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "WHAT,..")]
     pub show: Vec<ShowArg>,
     /// Show the form factors from one patch to all others: a surface, and the patch's two numbers

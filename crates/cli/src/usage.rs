@@ -1,5 +1,6 @@
 //! The command line as a whole: help, and what is wrong with it.
 
+use super::help::with_help;
 use super::terminal::tell;
 use clap::Parser;
 use clap::builder::Styles;
@@ -14,7 +15,7 @@ pub fn parse_command_line<C: Parser>() -> Result<C, ExitCode> {
             tell(&without_styles::<C>(&message));
             exit_code(&message)
         } else {
-            print_help(&message)
+            print_help(&with_all_help::<C>().unwrap_or(message))
         }
     })
 }
@@ -27,6 +28,12 @@ fn without_styles<C: Parser>(message: &clap::Error) -> String {
         Ok(_) => message.render().to_string(),
     };
     text.trim_end().to_owned()
+}
+
+/// The help that was asked for, with all that is added to it: made for those alone who ask.
+fn with_all_help<C: Parser>() -> Option<clap::Error> {
+    let command = with_help(C::command());
+    command.try_get_matches_from(std::env::args_os()).err()
 }
 
 fn print_help(message: &clap::Error) -> ExitCode {

@@ -10,11 +10,13 @@ use radiosity::scene::{ALL_VIEWS, FIRST_VIEW, Scene, suggestion};
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Views")]
 pub struct ViewArgs {
-    /// The scene's views by their names, `camera` for its first one, or all
+    /// The scene's views by their names, or all [default: camera, the first one]
     #[arg(long, value_name = "NAME,..|all", value_delimiter = ',')]
     pub views: Vec<String>,
-    /// Turn once around what is in the middle of the picture, as far away as the middle of the
-    /// scene, in N numbered pictures for each view
+    /// Turn once around what each view shows, in N numbered pictures
+    ///
+    /// The camera turns around what is in the middle of the picture, as far away as the middle of
+    /// the scene.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9999))]
     pub turntable: Option<u32>,
     /// Go along a smooth path through the views (all, if not told otherwise), in N numbered

@@ -305,6 +305,19 @@ fn check_computes_nothing() {
     assert!(!place.path("out").exists() && !place.path("platform-cache").exists());
 }
 
+#[test]
+fn pictures_that_replace_others_say_so() {
+    let place = Place::new();
+    let render = "render room.toml --cache c --format png --shading smooth";
+    let first = place.succeed(render);
+    assert!(first.ends_with("out/room-smooth.png\n"), "{first}");
+    let second = place.succeed(render);
+    assert!(
+        second.ends_with("out/room-smooth.png (replaced)\n"),
+        "{second}"
+    );
+}
+
 /// Statistics of rows, convergence and names of files are for those who ask.
 #[test]
 fn more_is_printed_on_request() {
@@ -331,6 +344,25 @@ fn nothing_but_text_is_printed_where_there_is_no_terminal() {
         "{stderr}"
     );
     assert_eq!(stderr, "");
+}
+
+#[test]
+fn shells_and_man_know_the_commands() {
+    let place = Place::new();
+    for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
+        let script = place.succeed(&format!("completions {shell}"));
+        assert!(script.contains("turntable"), "{shell}");
+    }
+    place.succeed("man pages");
+    let page = fs::read_to_string(place.path("pages/radiosity-render.1")).unwrap();
+    assert!(page.contains("Longest edge of a patch") && page.contains("Examples:"));
+    place.write("file", "");
+    let (code, message) = place.fail("man file");
+    assert_eq!(code, 1);
+    assert!(
+        message.starts_with("error: cannot write file: "),
+        "{message}"
+    );
 }
 
 #[test]
