@@ -38,9 +38,10 @@ pub struct FactorArgs {
     /// Pairs of points per pair of patches, for monte-carlo [default: points^2]
     #[arg(long, value_name = "N")]
     pub pairs: Option<u32>,
-    /// Aimed error of accurate form factors, 1e-6 to 0.1 [default: the scene's, or 5e-4]
+    /// Aimed error of accurate form factors, 1e-6 to 0.1 [default: the scene's, or 0.01]
     ///
-    /// It is the sum of the absolute errors of all form factors from a patch.
+    /// It is the sum of the absolute errors of all form factors from a patch. Scenes of View3D have
+    /// a default of 5e-4.
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
     /// Seed of the random points of monte-carlo [default: the scene's, or 0]

@@ -19,7 +19,7 @@ pub struct Params {
     /// Of monte-carlo: the seed of the random points. Default: 0.
     pub seed: u64,
     /// Of accurate: the aimed sum over a row of the absolute errors of its factors, 1e-6 to 0.1.
-    /// Default: 5e-4, well below what patches of constant radiosity cost.
+    /// Default: 0.01, well below the error of patches of constant radiosity.
     pub tolerance: f64,
     /// Whether factors are scaled so that rows sum to 1 where patches see nothing but fronts.
     /// Default: false.
@@ -46,7 +46,7 @@ impl Default for Params {
             points: 3,
             pairs: None,
             seed: 0,
-            tolerance: 5e-4,
+            tolerance: 0.01,
             closure: false,
         }
     }

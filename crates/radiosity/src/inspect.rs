@@ -104,7 +104,7 @@ impl EstimatorReport {
             setting("points", self.points.map(|n| n.to_string())),
             setting("pairs", self.pairs.map(|n| n.to_string())),
             setting("seed", self.seed.map(|n| n.to_string())),
-            setting("tolerance", self.tolerance.map(|x| format!("{x:e}"))),
+            setting("tolerance", self.tolerance.map(|x| x.to_string())),
         ]
         .concat()
     }

@@ -64,3 +64,10 @@ pub use radiosity_reference as reference;
 pub use radiosity_renderer as renderer;
 pub use radiosity_scene as scene;
 pub use radiosity_solver as solver;
+
+/// The programs that documents show are compiled.
+#[cfg(doctest)]
+mod documents {
+    #[doc = include_str!("../../../README.md")]
+    struct Readme;
+}

@@ -41,6 +41,9 @@ const OF_SURFACES: [&str; 2] = ["divisions", "max_patch_edge"];
 /// Tables with a key that has another name now: the table, the old name, and the new one.
 const RENAMED: [(&str, &str, &str); 1] = [("solver", "tolerance", "residual")];
 
+/// The tolerance of View3D's scenes: their form factors are what is wanted, and no picture.
+const OF_VIEW_FACTORS: f64 = 5e-4;
+
 impl Project {
     /// Reads a scene file, and the mesh files that it names, which are in its folder.
     pub fn open(path: &Path) -> Result<Project, Error> {
@@ -66,9 +69,13 @@ impl Project {
             mut notes,
         } = radiosity_scene::parse(path, text, mesh_files)?;
         notes.extend(rename(&mut tables));
+        let mut form_factors: form_factors::Params = tables.take("form_factors")?;
+        if scene.kind == FileKind::View3D {
+            form_factors.tolerance = OF_VIEW_FACTORS;
+        }
         let params = Params {
             discretization: discretization(&scene, &mut tables)?,
-            form_factors: tables.take("form_factors")?,
+            form_factors,
             solver: tables.take("solver")?,
             image: tables.take("image")?,
         };

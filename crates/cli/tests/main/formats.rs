@@ -27,7 +27,7 @@ fn linear_formats_agree() {
                     .any(|part| part == text.as_bytes())
             };
             assert!(
-                says("Solution") && says("room") && says("tolerance 5e-4"),
+                says("Solution") && says("room") && says("tolerance 0.01"),
                 "{ending}"
             );
         }

@@ -20,7 +20,7 @@ fn form_factors_are_described() {
     let said = place.succeed(&format!("inspect {form_factors} --scene room.toml"));
     for part in [
         "no byte is damaged",
-        "accurate, tolerance 5e-4; 17 patches of 4 surfaces",
+        "accurate, tolerance 0.01; 17 patches of 4 surfaces",
         "rows by |fronts + backs + outside - 1|",
         "worst rows",
         "in row ",

@@ -7,6 +7,7 @@ mod compare_memory;
 mod covers;
 mod darkness;
 mod display;
+mod docs;
 mod export;
 mod failures;
 mod formats;

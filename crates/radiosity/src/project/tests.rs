@@ -193,15 +193,3 @@ fn shipped_scenes_are_good_and_open_with_a_comment() {
         assert!(names.iter().any(|n| n == name), "{name}");
     }
 }
-
-/// The scene in the README, without its mesh.
-#[test]
-fn the_readme_tells_the_truth() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md");
-    let readme = std::fs::read_to_string(path).unwrap();
-    let scene = readme.split("```toml\n").nth(1).unwrap();
-    let scene = scene.split("```").next().unwrap();
-    let without_mesh = scene.rsplit_once("[[surfaces]]").unwrap().0;
-    let project = parse(without_mesh).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(project.scene.surfaces.len(), 2);
-}
