@@ -55,7 +55,8 @@ pub(crate) fn most_memory() -> Option<f64> {
     Some(1024.0 * kilobytes)
 }
 
-/// The seconds that each instruction set of the machine takes for the form factors of `cornell-course` by
+/// The seconds that each instruction set of the machine takes for the form factors of
+/// `cornell-course` by
 /// the regular rule: the best of several processes, since each keeps to one set.
 pub(crate) fn seconds_by_set(divisions: u32) -> Vec<(&'static str, Option<f64>)> {
     let best = |set: InstructionSet| {

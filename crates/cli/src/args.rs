@@ -45,7 +45,7 @@ pub enum Command {
     Reference(ReferenceCommand),
     /// Compare two pictures or two tables of radiosities: the error of one against the other
     Compare(CompareCommand),
-    /// Check a scene, and say what time, memory and disk a run would take, without computing anything
+    /// Check a scene, and forecast time, memory and disk of a run, without computing anything
     Check(CheckArgs),
     /// See or empty the cache
     Cache(CacheCommand),

@@ -36,7 +36,7 @@ pub struct CompareCommand {
     #[arg(long, value_name = "X", value_parser = parse_positive, allow_negative_numbers = true)]
     pub exposure: Option<f64>,
     /// Exponent by which levels of .ppm and .png become brightness, or srgb [default: a PNG's own,
-    /// the scene's, or 2.2]
+    /// the scene's, or srgb]
     #[arg(
         long,
         value_name = "X|srgb",

@@ -81,9 +81,10 @@ const MOST_UNBALANCED: usize = 3;
 /// The surfaces whose rows do not add up, by name.
 pub(crate) fn unbalanced_lines(rows: &RowSummary, name: impl Fn(u32) -> String) -> Vec<String> {
     let line = |of: &Unbalanced| {
+        let verb = if of.rows == 1 { "does" } else { "do" };
         format!(
-            "warning: {} of `{}` do not add up: what its patches see sums to {:.4} instead of 1 \
-             at worst, more than the errors explain; do not trust these form factors",
+            "warning: {} of `{}` {verb} not add up: what its patches see sums to {:.4} instead of \
+             1 at worst, more than the errors explain; do not trust these form factors",
             counted(of.rows as usize, ROWS),
             name(of.surface),
             of.worst,

@@ -2,6 +2,7 @@
 
 use super::estimate_args::OutputArgs;
 use super::reference_args::ReferenceCommand;
+use super::reference_report::{Json, PictureReport};
 use super::run::{make_folder, with_threads, write};
 use super::site::Site;
 use super::terminal::{Terminal, say_json};
@@ -17,7 +18,6 @@ use radiosity::scene::Scene;
 use radiosity::words::grouped;
 use radiosity::{Context, Observer, Project, Stage, of_cells, reference_table, subdivide};
 use radiosity_simd::InstructionSet;
-use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::slice;
@@ -27,36 +27,6 @@ use std::time::{Duration, Instant};
 const FEWEST_PASSES: u32 = 16;
 /// What an interrupted run loses at most.
 const SAVE_INTERVAL: Duration = Duration::from_secs(10);
-
-/// The object that `--json` prints. Fields may be added, but not changed or removed.
-#[derive(Debug, Serialize)]
-struct Json {
-    /// The scene's name.
-    scene: String,
-    /// Random walks per pixel or patch.
-    walks: u32,
-    seconds: f64,
-    /// By whose instructions rays were traced.
-    instruction_set: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    picture: Option<PictureReport>,
-    /// How many rows the table has.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    patches: Option<usize>,
-    /// Written files: `radiance`, `standard_error` and `png`, or `table`.
-    outputs: BTreeMap<&'static str, String>,
-}
-
-#[derive(Debug, Serialize)]
-struct PictureReport {
-    /// The estimated root mean square error, in percent of the mean.
-    error_percent: f64,
-    /// The factor from radiance to brightness, of the PNG.
-    exposure: f64,
-    /// Points of surfaces where walks gathered light.
-    vertices: u64,
-    vertices_per_second_and_thread: f64,
-}
 
 pub(crate) fn run(args: &ReferenceCommand, site: &Site) -> Result<(), Error> {
     let Project {
@@ -224,7 +194,8 @@ fn expected_passes(args: &ReferenceCommand, tracer: &Tracer<'_>, seconds: f64, e
     expected.max(least)
 }
 
-/// Writes radiance and standard error as float maps, and the picture for people; tells its exposure.
+/// Writes radiance and standard error as float maps, and the picture for people; tells its
+/// exposure.
 fn save(
     scene: &Scene,
     params: &ImageParams,

@@ -18,7 +18,7 @@ use crate::report::Report;
 use radiosity::cache::{Changed, Store, replace_file_by};
 use radiosity::solver::Params;
 use radiosity::stages::{Factors, FormFactorsMade, Solved, mean_irradiance};
-use radiosity::{Context, LightTable, Project, estimate, subdivide};
+use radiosity::{Context, LightExport, Project, estimate, subdivide};
 use radiosity_simd::InstructionSet;
 use std::io;
 use std::path::Path;
@@ -84,7 +84,7 @@ fn solve(args: &SolveCommand, site: &Site, is_anew: bool) -> Result<(), Error> {
         if let Some(path) = &args.export {
             let irradiance = mean_irradiance(&factors, &light)?;
             let mesh = &patches.mesh;
-            let table = LightTable::new(&scene, mesh, &light, &irradiance, args.by.into());
+            let table = LightExport::new(&scene, mesh, &light, &irradiance, args.by.into());
             write(path, context.cache, &table.to_csv())?;
             report.output("export", path);
         }

@@ -1,5 +1,5 @@
-//! The scenes of this project's `scenes/` folder, in the program: an installed command finds them by
-//! name, wherever it runs.
+//! The scenes of the folder `scenes/`, in the program: an installed command finds them by name,
+//! wherever it runs.
 
 use radiosity::scene::MeshFiles;
 use radiosity::{Error, Project};

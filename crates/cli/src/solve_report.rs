@@ -105,7 +105,7 @@ pub(crate) fn solution_details(solved: &Solved<'_>, energy: &Energy) -> Vec<Stri
     lines
 }
 
-/// Of the light, where more is unaccounted for everybody is told.
+/// Of the light, where the energy balance is worse everybody is told.
 const UNBALANCED: f64 = 0.005;
 
 /// How it was reached.
@@ -129,7 +129,8 @@ fn energy_line(energy: &Energy) -> Option<String> {
     let percent = |part: [f64; 3]| 100.0 * part.iter().sum::<f64>() / whole;
     (whole > 0.0).then(|| {
         format!(
-            "of the light, {:.1} % is absorbed, {:.1} % leaves the scene, {:.1} % reaches back faces",
+            "of the light, {:.1} % is absorbed, {:.1} % leaves the scene, {:.1} % reaches back \
+             faces",
             percent(energy.absorbed),
             percent(energy.to_background),
             percent(energy.to_backs),

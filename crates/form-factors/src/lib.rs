@@ -71,6 +71,7 @@ pub use estimate::{Estimation, estimate};
 pub use estimator::Estimator;
 pub use lumped::LumpedFactors;
 pub use params::{Mode, Params};
+pub use surroundings::error_of_rays;
 pub use tally::{ClassFacts, Classes, Tally};
 
 /// Raise it whenever the same mesh would give other form factors, because of a change here, in

@@ -116,15 +116,17 @@ pub(crate) fn look_around(
     Surroundings {
         backs: total(&sums.backs) / all,
         background: total(&sums.background) / all,
-        error: scatter.max(of_rays(share, LANES * FIRST_LOOK.rays)),
+        error: scatter.max(error_of_rays(share)),
         visible,
     }
 }
 
-/// The standard error of a share that so many independent rays tell, if one more ray told it: eight
-/// shifts may agree by chance, and what is smaller than the share of one ray may have gone unseen.
-fn of_rays(share: f64, rays: usize) -> f64 {
-    let one = 1.0 / rays as f64;
+/// The standard error of a share that the rays from a patch tell, if they were independent and one
+/// more ray told it: eight shifts may agree by chance, and what is smaller than the share of one
+/// ray may have gone unseen.
+pub fn error_of_rays(share: f64) -> f64 {
+    let one = 1.0 / (LANES * FIRST_LOOK.rays) as f64;
+    let share = share.clamp(0.0, 1.0);
     ((share + one) * (1.0 - share + one) * one).sqrt()
 }
 

@@ -10,12 +10,12 @@ use std::collections::HashMap;
 
 /// The light of a scene, ready for export: a row per patch, in input order, or per surface or group
 /// with means by area.
-pub struct LightTable<'a> {
-    rows: Vec<Row<'a>>,
+pub struct LightExport<'a> {
+    rows: Vec<LightRow<'a>>,
     by: By,
 }
 
-struct Row<'a> {
+struct LightRow<'a> {
     surface: &'a str,
     group: &'a str,
     /// Of patches.
@@ -36,7 +36,7 @@ pub fn light_table_bytes(patches: u64) -> u64 {
     BYTES_OF_ROW * patches
 }
 
-impl<'a> LightTable<'a> {
+impl<'a> LightExport<'a> {
     /// `irradiance` is the mean of what arrives at each patch, W/m^2
     /// ([`mean_irradiance`](crate::stages::mean_irradiance)).
     pub fn new(
@@ -45,11 +45,11 @@ impl<'a> LightTable<'a> {
         light: &PatchLight,
         irradiance: &[[f32; 3]],
         by: By,
-    ) -> LightTable<'a> {
+    ) -> LightExport<'a> {
         let radiosity = light.mean_radiosity();
         let row = |(patch, cell): (usize, [u32; 2])| {
             let (of_mesh, face) = (&mesh.patches[patch], mesh.face_of(patch));
-            Row {
+            LightRow {
                 surface: &scene.surfaces[of_mesh.surface.index()].name,
                 group: scene.group(face.surface, face.input_index),
                 cell,
@@ -60,13 +60,13 @@ impl<'a> LightTable<'a> {
                 visible: light.visible[patch].into(),
             }
         };
-        let rows: Vec<Row<'_>> = input_order(scene, mesh).into_iter().map(row).collect();
+        let rows: Vec<LightRow<'_>> = input_order(scene, mesh).into_iter().map(row).collect();
         let rows = match by {
             By::Patch => rows,
             By::Surface => means(&rows, |row| row.surface),
             By::Group => means(&rows, |row| row.group),
         };
-        LightTable { rows, by }
+        LightExport { rows, by }
     }
 
     /// The columns `surface,ia,ib,B_r,B_g,B_b,H_r,H_g,H_b,area,x,y,z,visible,group` of patches;
@@ -90,7 +90,7 @@ impl<'a> LightTable<'a> {
         writer.into_inner().expect(in_memory)
     }
 
-    fn record(&self, row: &Row<'_>) -> Vec<String> {
+    fn record(&self, row: &LightRow<'_>) -> Vec<String> {
         let name = if self.by == By::Group {
             row.group
         } else {
@@ -116,12 +116,15 @@ impl<'a> LightTable<'a> {
 }
 
 /// Means by area of the rows of one name, in the order in which names are met.
-fn means<'a>(rows: &[Row<'a>], name_of: impl Fn(&Row<'a>) -> &'a str) -> Vec<Row<'a>> {
-    let mut sums: Vec<Row<'a>> = Vec::new();
+fn means<'a>(
+    rows: &[LightRow<'a>],
+    name_of: impl Fn(&LightRow<'a>) -> &'a str,
+) -> Vec<LightRow<'a>> {
+    let mut sums: Vec<LightRow<'a>> = Vec::new();
     let mut places = HashMap::new();
     for row in rows {
         let place = *places.entry(name_of(row)).or_insert_with(|| {
-            sums.push(Row {
+            sums.push(LightRow {
                 area: 0.0,
                 centroid: DVec3::ZERO,
                 radiosity: [0.0; 3],

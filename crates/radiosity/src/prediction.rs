@@ -35,8 +35,8 @@ pub(crate) fn prediction(
     ))
 }
 
-/// How long an estimation takes of which so many pairs are left, from a timed sample; `None` if that
-/// is not worth a sample.
+/// How long an estimation takes of which so many pairs are left, from a timed sample; `None` if
+/// that is not worth a sample.
 pub(crate) fn predicted_seconds(
     left: u64,
     estimation: &Estimation<'_>,

@@ -23,6 +23,7 @@
 mod dimming;
 mod exposure;
 mod factors;
+mod irradiance;
 mod light;
 mod patches;
 mod pictures;
@@ -31,9 +32,10 @@ mod solution;
 pub use dimming::Dimming;
 pub use exposure::expose;
 pub use factors::{Factors, FormFactorsMade, estimate};
+pub use irradiance::mean_irradiance;
 pub use light::PatchLight;
 pub use patches::{Patches, subdivide};
-pub use pictures::{Quantity, Shown, mean_irradiance, render, render_by, save_png, show};
+pub use pictures::{Quantity, Shown, render, render_by, save_png, show};
 pub use solution::{Solved, solve, solve_anew};
 
 #[cfg(test)]

@@ -5,9 +5,9 @@
 //! "Illumination for Computer Generated Pictures", CACM 18, 1975).
 //!
 //! At grazing angles that alone fails: light from above the interpolated horizon may come from
-//! below the plane of the facet, and the mesh itself blocks it, facet by facet. So points are lifted
-//! to the smooth surface that the facets stand for. With corners `c_i`, their normals `n_i` and the
-//! weights `w_i` of a point `p = sum_i w_i c_i`,
+//! below the plane of the facet, and the mesh itself blocks it, facet by facet. So points are
+//! lifted to the smooth surface that the facets stand for. With corners `c_i`, their normals `n_i`
+//! and the weights `w_i` of a point `p = sum_i w_i c_i`,
 //!
 //! ```text
 //! p' = p + sum_i w_i max(0, (c_i - p) . n_i) n_i

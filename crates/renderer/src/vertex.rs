@@ -13,8 +13,6 @@
 //!
 //! Two patches belong together at a vertex if they have equal emission and reflectance and
 //! their normals differ by less than the crease angle, directly or by way of others there.
-//!
-//! Long because: how vertices get their values is one chain of steps.
 
 use crate::fields::Fields;
 use crate::hanging::{Hanging, hanging_vertices};

@@ -20,7 +20,7 @@ use radiosity::words::grouped;
 use std::path::Path;
 
 /// The curve of pictures that say nothing of theirs.
-const USUAL: Transfer = Transfer::Gamma(2.2);
+const USUAL: Transfer = Transfer::Srgb;
 
 /// A linear picture.
 const BYTES_OF_IMAGE: u64 = 12;
@@ -68,7 +68,7 @@ pub(super) fn pictures(
             tell radiance";
         return Err(Error::with_help(
             problem,
-            "compare .pfm files, or state the --exposure",
+            "state the --exposure that the run has printed, or compare .pfm files",
         ));
     }
     let map = args.regions.as_deref();

@@ -1,4 +1,5 @@
-//! What the documents show is run: commands, scenes, and programs (those in `radiosity`'s own tests).
+//! What the documents show is run: commands and scenes. Programs are compiled by the doc tests of
+//! `radiosity`.
 
 use crate::place::Place;
 use std::fs;

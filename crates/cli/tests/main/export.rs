@@ -1,6 +1,7 @@
 //! Form factors as other programs read them.
 
 use crate::place::Place;
+use crate::tables::{number, read_table};
 use std::collections::BTreeMap;
 use std::fs;
 
@@ -24,30 +25,6 @@ fn read_npy(place: &Place, name: &str) -> Vec<Vec<f64>> {
         .collect();
     assert_eq!(values.len(), shape[0] * shape[1]);
     values.chunks(shape[1]).map(<[f64]>::to_vec).collect()
-}
-
-/// The lines of a table, by the names of its columns.
-pub(crate) fn read_table(place: &Place, name: &str) -> Vec<BTreeMap<String, String>> {
-    let text = fs::read_to_string(place.path(name)).unwrap();
-    let mut lines = text.lines().map(split);
-    let columns = lines.next().unwrap();
-    lines
-        .map(|line| columns.iter().cloned().zip(line).collect())
-        .collect()
-}
-
-/// The fields of a line; quotes are around whole fields in these tests.
-fn split(line: &str) -> Vec<String> {
-    let line = line.replace("\"lamp, the only one\"", "lamp");
-    line.split(',').map(str::to_owned).collect()
-}
-
-pub(crate) fn text(line: &BTreeMap<String, String>, column: &str) -> String {
-    line[column].clone()
-}
-
-pub(crate) fn number(line: &BTreeMap<String, String>, column: &str) -> f64 {
-    line[column].parse().unwrap()
 }
 
 /// The scene with its lamp and its wing in one group.

@@ -1,7 +1,7 @@
 //! Lights that are dimmed without solving.
 
-use crate::export::{number, read_table};
 use crate::place::{Place, SCENE};
+use crate::tables::{number, read_table};
 use radiosity::{Context, Error, Project, Silent, estimate, solve, subdivide};
 use std::fs;
 

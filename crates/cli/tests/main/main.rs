@@ -1,6 +1,7 @@
 //! The command, as people call it.
 
 mod cache;
+mod check;
 mod command;
 mod compare;
 mod compare_memory;
@@ -13,9 +14,11 @@ mod failures;
 mod formats;
 mod inspect;
 mod interruption;
+mod light_tables;
 mod lights;
 mod place;
 mod plots;
 mod reference;
 mod room;
+mod tables;
 mod terminal;

@@ -1,7 +1,7 @@
 //! The oracle on the command line.
 
-use crate::export::{read_table, text};
 use crate::place::{Place, SCENE};
+use crate::tables::{read_table, text};
 use std::fs;
 
 /// The oracle: bytes depend on samples and seed, not on threads; both float maps are there.

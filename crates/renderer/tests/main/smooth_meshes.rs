@@ -57,8 +57,8 @@ fn around(angles: std::ops::Range<u32>) -> Vec<(f64, DVec3)> {
     angles.map(turned).collect()
 }
 
-/// `M A cos / (pi r^2)` on the sphere itself, from a lamp that is seen whole; the largest difference
-/// from what is shown, as a share of what is brightest.
+/// `M A cos / (pi r^2)` on the sphere itself, from a lamp that is seen whole; the largest
+/// difference from what is shown, as a share of what is brightest.
 fn worst_error(mesh: &Mesh, crease_angle: f64) -> f64 {
     let points = around(0..80);
     let directions: Vec<DVec3> = points.iter().map(|(_, direction)| *direction).collect();
