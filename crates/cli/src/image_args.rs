@@ -102,7 +102,7 @@ pub struct DisplayArgs {
         conflicts_with = "direct",
     )]
     pub gather: Option<Option<u32>>,
-    /// The pictures to make, instead [default: constant,smooth]
+    /// How pictures are shaded, one for each [default: constant,smooth]
     #[arg(
         long,
         value_enum,

@@ -19,8 +19,8 @@ pub(crate) fn scene_line(scene: &Scene, patches: usize) -> String {
 /// Where the light of patches goes.
 pub(crate) fn row_line(rows: &RowSummary) -> String {
     format!(
-        "of a patch's light, {:.2} % reaches front faces by form factors; by rays, {:.2} % reaches \
-         back faces, {:.2} % leaves the scene",
+        "on average, {:.2} % of what leaves a patch reaches front faces by its form factors; by \
+         rays, {:.2} % reaches back faces, {:.2} % leaves the scene",
         100.0 * rows.mean,
         100.0 * rows.backs,
         100.0 * rows.background

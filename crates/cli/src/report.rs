@@ -6,7 +6,7 @@ use crate::lines::{
     scene_line, unbalanced_lines,
 };
 use crate::save::Written;
-use crate::solve_report::{SolveReport, solution_details, solution_lines};
+use crate::solve_report::{SolveReport, solution_lines};
 use crate::terminal::{Terminal, say_json};
 use radiosity::darkness;
 use radiosity::openings;
@@ -146,10 +146,8 @@ impl<'a> Report<'a> {
     ) {
         self.stage_line("solution", &solved.origin);
         let light = darkness::light_lines(patches, dimming, energy);
-        for line in solution_details(solved, energy) {
-            self.terminal.detail(&indented(&line));
-        }
-        for line in solution_lines(solved, energy).into_iter().chain(light) {
+        let lines = solution_lines(solved, energy, self.terminal.is_verbose);
+        for line in lines.into_iter().chain(light) {
             self.terminal.line(&indented(&line));
         }
         self.json.stages.solve = Some(SolveReport::of(solved, energy));

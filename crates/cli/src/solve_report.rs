@@ -78,29 +78,21 @@ impl EnergyReport {
     }
 }
 
-/// The same for people.
-pub(crate) fn solution_lines(solved: &Solved<'_>, energy: &Energy) -> Vec<String> {
+/// The same for people; more of it for those who want to know.
+pub(crate) fn solution_lines(
+    solved: &Solved<'_>,
+    energy: &Energy,
+    is_verbose: bool,
+) -> Vec<String> {
     let report = &solved.solution.report;
     let mut lines = vec![convergence_line(report)];
+    lines.extend(is_verbose.then(|| format!("residual {:.1e}", report.residual)));
     lines.extend(energy_line(energy));
-    if energy.imbalance() > UNBALANCED {
+    if is_verbose || energy.imbalance() > UNBALANCED {
         lines.extend(balance_line(energy));
     }
     if !report.converged {
         lines.push(warning(report));
-    }
-    lines
-}
-
-/// And for those who want to know more.
-pub(crate) fn solution_details(solved: &Solved<'_>, energy: &Energy) -> Vec<String> {
-    let report = &solved.solution.report;
-    let relaxation = report
-        .relaxation
-        .map_or(String::new(), |factor| format!("relaxation {factor:.2}, "));
-    let mut lines = vec![format!("{relaxation}residual {:.1e}", report.residual)];
-    if energy.imbalance() <= UNBALANCED {
-        lines.extend(balance_line(energy));
     }
     lines
 }
@@ -120,7 +112,11 @@ fn convergence_line(report: &Convergence) -> String {
         Some(error) => format!("estimated error {error:.0e}"),
         None => format!("residual {:.0e}", report.residual),
     };
-    format!("{passes} {name}{plural}, {accuracy}")
+    let relaxation = match report.relaxation {
+        Some(factor) if factor != 1.0 => format!(" (relaxation {factor:.2})"),
+        _ => String::new(),
+    };
+    format!("{passes} {name}{plural}{relaxation}, {accuracy}")
 }
 
 /// Where the power goes, over all channels.
@@ -144,7 +140,7 @@ fn balance_line(energy: &Energy) -> Option<String> {
     let share = sum(energy.missing()) / sum(energy.emitted);
     share.is_finite().then(|| {
         format!(
-            "the three sum to {:.2} %; what is off 100 % is an error of the form factors",
+            "these shares sum to {:.2} %: the rest is an error of the form factors, or of rays",
             100.0 * (1.0 - share)
         )
     })

@@ -49,7 +49,8 @@ pub(crate) struct Terminal {
     failure: Mutex<Option<io::Error>>,
     /// Whether lines for people go to standard error, to leave standard output to JSON.
     pub(crate) json: bool,
-    is_verbose: bool,
+    /// Whether people want to know more.
+    pub(crate) is_verbose: bool,
 }
 
 impl Terminal {

@@ -196,7 +196,7 @@ fn more_is_printed_on_request() {
     let short = place.succeed("render room.toml --cache c");
     let long = place.succeed("render room.toml --cache c --verbose");
     for detail in [
-        "of a patch's light",
+        "of what leaves a patch",
         "the errors of a row",
         "residual ",
         "kept in ",
