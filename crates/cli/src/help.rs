@@ -86,6 +86,13 @@ const EXAMPLES: [(&str, [&str; 3]); 10] = [
     ),
 ];
 
+/// Three commands for the help of the program.
+const FIRST: [&str; 3] = [
+    "render                                           pictures of the Cornell box",
+    "check room.toml                                  mistakes, and what a run will take",
+    "form-factors room.vs3 --export f.csv --by surface    view factors between surfaces",
+];
+
 /// Of commands with more options than a screen has lines, `-h` shows these.
 const COMMON: [&str; 21] = [
     "scene",
@@ -130,11 +137,18 @@ pub(crate) fn with_help(command: Command) -> Command {
 pub fn with_examples(command: Command) -> Command {
     let program = command.get_bin_name().unwrap_or(command.get_name());
     let program = program.to_owned();
-    let mut command = command.max_term_width(WIDTH);
+    let told = |examples: [&str; 3]| {
+        let lines = examples.map(|example| format!("  {program} {example}"));
+        format!("Examples:\n{}", lines.join("\n"))
+    };
+    let end = match command.get_after_help() {
+        Some(end) => format!("{}\n\n{end}", told(FIRST)),
+        None => told(FIRST),
+    };
+    let mut command = command.max_term_width(WIDTH).after_help(end);
     for (name, examples) in EXAMPLES {
         if command.find_subcommand(name).is_some() {
-            let lines = examples.map(|example| format!("  {program} {example}"));
-            let examples = format!("Examples:\n{}", lines.join("\n"));
+            let examples = told(examples);
             command = command.mut_subcommand(name, |of_name| {
                 of_name.max_term_width(WIDTH).after_help(examples)
             });
@@ -169,14 +183,15 @@ mod tests {
     /// What stands before two spaces is what one types.
     #[test]
     fn examples_are_understood() {
-        for (name, examples) in EXAMPLES {
-            for example in examples {
-                let typed = example.split("  ").next().unwrap();
-                assert!(typed.starts_with(name));
-                let words = ["radiosity"].into_iter().chain(typed.split(' '));
-                let result = command().try_get_matches_from(words);
-                result.unwrap_or_else(|error| panic!("{example}: {error}"));
-            }
+        let first = ["render", "check", "form-factors"].into_iter().zip(FIRST);
+        let others = EXAMPLES.into_iter();
+        let others = others.flat_map(|(name, examples)| examples.map(|example| (name, example)));
+        for (name, example) in first.chain(others) {
+            let typed = example.split("  ").next().unwrap();
+            assert!(typed.starts_with(name));
+            let words = ["radiosity"].into_iter().chain(typed.split(' '));
+            let result = command().try_get_matches_from(words);
+            result.unwrap_or_else(|error| panic!("{example}: {error}"));
         }
     }
 
