@@ -3,7 +3,7 @@
 use crate::lines::{indented, labelled, scene_line};
 use radiosity::resources::Needs;
 use radiosity::scene::{Light, Scene};
-use radiosity::words::{bytes, duration, grouped};
+use radiosity::words::{PAIRS, bytes, counted, duration};
 use radiosity::{Project, light_table_bytes, matrix_bytes};
 use serde::Serialize;
 
@@ -93,8 +93,8 @@ impl Check {
             labelled(
                 "form factors",
                 &format!(
-                    "{} pairs of patches: {}{} of memory, {} of disk",
-                    grouped(self.pairs),
+                    "{}: {}{} of memory, {} of disk",
+                    counted(self.pairs as usize, PAIRS),
                     time.unwrap_or_default(),
                     bytes(self.memory_bytes),
                     bytes(self.disk_bytes),

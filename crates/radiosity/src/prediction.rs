@@ -2,7 +2,7 @@
 
 use crate::job::Job;
 use crate::resources::Needs;
-use crate::words::{bytes, duration, grouped};
+use crate::words::{PAIRS, bytes, counted, duration};
 use radiosity_form_factors::{Estimation, Estimator};
 use std::time::Instant;
 
@@ -27,8 +27,8 @@ pub(crate) fn prediction(
 ) -> Option<String> {
     let seconds = predicted_seconds(left, estimation, job).filter(|seconds| *seconds >= 1.0)?;
     Some(format!(
-        "{} pairs of patches: {}, {} of memory, {} of disk",
-        grouped(needs.pairs),
+        "{}: {}, {} of memory, {} of disk",
+        counted(needs.pairs as usize, PAIRS),
         duration(seconds),
         bytes(needs.memory),
         bytes(needs.disk),

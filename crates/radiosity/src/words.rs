@@ -28,6 +28,8 @@ pub const SURFACES: [&str; 2] = ["surface", "surfaces"];
 /// For [`counted`].
 pub const PATCHES: [&str; 2] = ["patch", "patches"];
 /// For [`counted`].
+pub const PAIRS: [&str; 2] = ["pair of patches", "pairs of patches"];
+/// For [`counted`].
 pub const ROWS: [&str; 2] = ["row", "rows"];
 
 /// A size in decimal units.
