@@ -3,7 +3,7 @@
 use super::cache_args::CacheCommand;
 use super::choices::ByArg;
 use super::compare_args::CompareCommand;
-use super::estimate_args::{EstimateArgs, FactorArgs, ThreadArgs};
+use super::estimate_args::{CacheArgs, EstimateArgs, FactorArgs, ThreadArgs};
 use super::image_args::DisplayArgs;
 use super::light_args::LightArgs;
 use super::parse::{parse_threshold, path_ending_in};
@@ -46,11 +46,27 @@ pub enum Command {
     /// Compare two pictures or two tables of radiosities: the error of one against the other
     Compare(CompareCommand),
     /// Check a scene, and forecast time, memory and disk of a run, without computing anything
+    ///
+    /// It also says whether the form factors are cached.
     Check(CheckArgs),
     /// See or empty the cache
     Cache(CacheCommand),
     /// Show what a cached file holds, how it was made, and how good it is
     Inspect(InspectCommand),
+}
+
+/// The rows of an export.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct RowsArgs {
+    /// What the rows of the export are
+    #[arg(
+        help_heading = "Results",
+        long,
+        value_enum,
+        default_value = "patch",
+        requires = "export"
+    )]
+    pub by: ByArg,
 }
 
 /// `form-factors`.
@@ -68,7 +84,8 @@ pub struct FormFactorsCommand {
     #[arg(help_heading = "Results", long)]
     pub recompute: bool,
     /// Write the matrix F[i, j], from row i to column j: a path that ends in .npy (float32) or
-    /// .csv. What the rows are, with areas, sums and errors, is written beside it as NAME.rows.csv
+    /// .csv (by surface or group, lines of from,to,F,error). What the rows are, with areas, sums
+    /// and errors, is written beside it as NAME.rows.csv
     #[arg(
         help_heading = "Results",
         long,
@@ -76,16 +93,8 @@ pub struct FormFactorsCommand {
         value_parser = path_ending_in(&["npy", "csv"]),
     )]
     pub export: Option<PathBuf>,
-    /// What the rows of the exported matrix are; by surface or group, .csv has lines of
-    /// from,to,F,error
-    #[arg(
-        help_heading = "Results",
-        long,
-        value_enum,
-        default_value = "patch",
-        requires = "export"
-    )]
-    pub by: ByArg,
+    #[command(flatten)]
+    pub rows: RowsArgs,
     /// Write only entries of at least X, as lines of row,column,F or from,to,F,error; the sum of
     /// the others is a column of NAME.rows.csv
     #[arg(
@@ -123,15 +132,8 @@ pub struct SolveCommand {
         value_parser = path_ending_in(&["csv"]),
     )]
     pub export: Option<PathBuf>,
-    /// What the rows of the exported table are; of surfaces and groups, means by area
-    #[arg(
-        help_heading = "Results",
-        long,
-        value_enum,
-        default_value = "patch",
-        requires = "export"
-    )]
-    pub by: ByArg,
+    #[command(flatten)]
+    pub rows: RowsArgs,
     /// Solve by every method, and draw how the residual falls with each pass; the path ends in .svg
     #[arg(
         help_heading = "Results",
@@ -173,6 +175,8 @@ pub struct CheckArgs {
     pub scene: SceneArgs,
     #[command(flatten)]
     pub factors: FactorArgs,
+    #[command(flatten)]
+    pub cache: CacheArgs,
     #[command(flatten)]
     pub threads: ThreadArgs,
     /// Print one JSON object on standard output, and everything else on standard error

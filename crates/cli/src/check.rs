@@ -1,13 +1,13 @@
 //! `check`.
 
 use super::args::CheckArgs;
-use super::estimate_args::OutputArgs;
 use super::run::with_threads;
 use super::site::Site;
 use super::terminal::{Terminal, say_json};
 use crate::check_report::Check;
 use crate::error::Error;
 use radiosity::advice;
+use radiosity::cache::Store;
 use radiosity::covers;
 use radiosity::geometry::{Discretization, Mesh, count_patches};
 use radiosity::resources::Needs;
@@ -21,13 +21,10 @@ pub(super) fn run(args: &CheckArgs, site: &Site) -> Result<(), Error> {
         let counted = counted_needs(&project)?;
         let fits = counted.check_memory();
         let check = match fits {
-            Ok(()) => found(&project, counted.patches)?,
+            Ok(()) => found(&project, counted.patches, args.cache.store(site).as_ref())?,
             Err(_) => Check::counted(&project, &counted),
         };
-        let terminal = Terminal::new(OutputArgs {
-            json: args.json,
-            verbose: false,
-        });
+        let terminal = Terminal::brief(args.json);
         check
             .lines(&project.scene)
             .iter()
@@ -41,14 +38,19 @@ pub(super) fn run(args: &CheckArgs, site: &Site) -> Result<(), Error> {
 }
 
 /// What is found of a scene that fits into memory.
-fn found(project: &Project, patches: usize) -> Result<Check, Error> {
+fn found(project: &Project, patches: usize, cache: Option<&Store>) -> Result<Check, Error> {
     let faces = faces_of(project)?;
     let needs = needs_of(project, patches, faces.faces.len());
     let params = &project.params;
-    let patches = subdivide(&project.scene, &params.discretization, Context::default())?;
+    let context = Context {
+        cache,
+        ..Context::default()
+    };
+    let patches = subdivide(&project.scene, &params.discretization, context)?;
     let factors = estimate(&patches, &params.form_factors)?;
     let advice = advice::notes(&project.scene, &patches.mesh);
     let mut check = Check::counted(project, &needs);
+    check.cached = factors.are_cached();
     check.seconds = Some(factors.forecast());
     check.notes = notes(project, &faces).into_iter().chain(advice).collect();
     Ok(check)

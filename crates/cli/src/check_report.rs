@@ -4,7 +4,7 @@ use crate::lines::{indented, labelled, scene_line};
 use radiosity::resources::Needs;
 use radiosity::scene::{Light, Scene};
 use radiosity::words::{PAIRS, bytes, counted, duration};
-use radiosity::{Project, light_table_bytes, matrix_bytes};
+use radiosity::{Project, light_export_bytes, matrix_bytes};
 use serde::Serialize;
 
 /// What is found; also the object that `--json` prints: fields may be added, but not changed or
@@ -22,7 +22,10 @@ pub(super) struct Check {
     views: Vec<String>,
     /// Names of the lights.
     lights: Vec<String>,
-    /// Of estimating the form factors here; absent if the scene does not fit into memory.
+    /// Whether the form factors are cached.
+    pub(super) cached: bool,
+    /// Of estimating the form factors here, cached or not; absent if the scene does not fit into
+    /// memory.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) seconds: Option<f64>,
     memory_bytes: u64,
@@ -64,13 +67,14 @@ impl Check {
                 .iter()
                 .map(|light| light.name.clone())
                 .collect(),
+            cached: false,
             seconds: None,
             memory_bytes: needs.memory,
             disk_bytes: needs.disk,
             export_bytes: Exports {
                 form_factors_npy,
                 form_factors_csv,
-                radiosities_csv: light_table_bytes(rows),
+                radiosities_csv: light_export_bytes(rows),
                 picture_ppm: 3 * u64::from(image.width) * u64::from(image.height),
             },
             notes: Vec::new(),
@@ -84,18 +88,19 @@ impl Check {
             true => "",
             false => " (no camera: it cannot be rendered)",
         };
-        let time = self
-            .seconds
-            .map(|seconds| format!("{}, ", duration(seconds)));
+        let time = match (self.cached, self.seconds) {
+            (true, _) => "cached, ".to_owned(),
+            (false, Some(seconds)) => format!("{}, ", duration(seconds)),
+            (false, None) => String::new(),
+        };
         let exports = &self.export_bytes;
         let mut lines = vec![
             format!("{}{camera}", scene_line(scene, self.patches)),
             labelled(
                 "form factors",
                 &format!(
-                    "{}: {}{} of memory, {} of disk",
+                    "{}: {time}{} of memory, {} of disk",
                     counted(self.pairs as usize, PAIRS),
-                    time.unwrap_or_default(),
                     bytes(self.memory_bytes),
                     bytes(self.disk_bytes),
                 ),

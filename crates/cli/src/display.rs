@@ -2,7 +2,7 @@
 
 use super::args::DisplayCommand;
 use super::live::Live;
-use super::run::{make_folder, solved, store, with_threads};
+use super::run::{make_folder, solved, with_threads};
 use super::save::Folder;
 use super::series::{Series, Sheet, check_names};
 use super::site::Site;
@@ -37,7 +37,7 @@ fn display(
     let dimming = args.lights.dimming(scene)?;
     let folder = args.display.output.as_ref().unwrap_or(&site.output);
     let terminal = Terminal::new(args.estimate.output);
-    let store = store(&args.estimate, site);
+    let store = args.estimate.cache.store(site);
     let context = Context::new(store.as_ref(), &terminal);
     let patches = subdivide(scene, &params.discretization, context)?;
     let factors = estimate(&patches, &params.form_factors)?;

@@ -130,7 +130,7 @@ fn by_flags(remedy: &Remedy) -> String {
             " (--divisions, or a larger --max-patch-edge or `divisions` of surfaces)"
         }
         Remedy::SmallerPictures => " (--size)",
-        Remedy::SmallerExport => " (--by surface, --sparse 1e-6)",
+        Remedy::SmallerExport => " (--by surface, or a .csv with --sparse 1e-6)",
         Remedy::CacheFolder | Remedy::CacheDisk => " (--cache, --no-cache)",
         _ => "",
     };

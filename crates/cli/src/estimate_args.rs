@@ -2,8 +2,10 @@
 
 use super::choices::{MODES, choice};
 use super::scene_args::set;
+use super::site::Site;
 use super::terminal::tell;
 use clap::Args;
+use radiosity::cache::Store;
 use radiosity::form_factors::{Mode, Params};
 use std::path::PathBuf;
 
@@ -104,4 +106,12 @@ pub struct CacheArgs {
     /// Compute everything; read and write no cached file
     #[arg(long, conflicts_with = "folder")]
     pub no_cache: bool,
+}
+
+impl CacheArgs {
+    /// The cache, unless nothing is to be read or written.
+    pub(super) fn store(&self, site: &Site) -> Option<Store> {
+        let folder = self.folder.as_ref().unwrap_or(&site.cache);
+        (!self.no_cache).then(|| Store::new(folder))
+    }
 }

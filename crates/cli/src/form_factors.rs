@@ -2,7 +2,7 @@
 
 use super::args::FormFactorsCommand;
 use super::choices::ByArg;
-use super::run::{check_folder_of, store, with_threads, write_by};
+use super::run::{check_folder_of, with_threads, write_by};
 use super::site::Site;
 use super::terminal::Terminal;
 use crate::error::Error;
@@ -28,12 +28,12 @@ pub(super) fn run(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
     params.check().map_err(radiosity::Error::from)?;
     let terminal = Terminal::new(args.estimate.output);
     with_threads(args.estimate.threads, || {
-        let store = store(&args.estimate, site);
+        let store = args.estimate.cache.store(site);
         let context = Context::new(store.as_ref(), &terminal);
         let patches = subdivide(&scene, &params.discretization, context)?;
         let factors = estimate(&patches, &params.form_factors)?;
         let mut report = Report::new(&patches, &terminal);
-        let is_whole = args.by == ByArg::Patch && args.sparse.is_none();
+        let is_whole = args.rows.by == ByArg::Patch && args.sparse.is_none();
         if let Some(path) = export.filter(|_| is_whole) {
             announce(path, patches.mesh.patches.len(), &terminal)?;
         }
@@ -43,7 +43,7 @@ pub(super) fn run(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
         }?;
         report.form_factors(&made.origin, &made.rows, &factors);
         if let Some(path) = export {
-            let by = args.by.into();
+            let by = args.rows.by.into();
             let table = FactorTable::new(&scene, &patches.mesh, &made.form_factors, by)?;
             let rows_path = export_table(&table, path, context.cache, args)?;
             report.output("export", path);
@@ -68,18 +68,20 @@ fn check_arguments(path: &Path, args: &FormFactorsCommand) -> Result<(), Error> 
 /// not fit on the disk, before anything is computed for it.
 fn announce(path: &Path, patches: usize, terminal: &Terminal) -> Result<(), Error> {
     let [of_npy, of_csv] = matrix_bytes(patches as u64);
-    let (size, at_most) = if is_npy(path) {
-        (of_npy, "")
+    let (size, takes) = if is_npy(path) {
+        let takes = format!("{} of disk; `--by surface` writes less", bytes(of_npy));
+        (of_npy, takes)
     } else {
-        (of_csv, "up to ")
+        let takes = format!(
+            "up to {} of disk; `--by surface` and `--sparse 1e-6` write less, and a path that ends \
+             in .npy takes {}",
+            bytes(of_csv),
+            bytes(of_npy),
+        );
+        (of_csv, takes)
     };
     if size >= LARGE {
-        terminal.note(&format!(
-            "warning: the export will take {at_most}{} of disk; `--by surface` and `--sparse 1e-6` \
-             write less, and a path that ends in .npy takes {}",
-            bytes(size),
-            bytes(of_npy),
-        ));
+        terminal.note(&format!("warning: the export will take {takes}"));
     }
     if is_npy(path) {
         check_export(path, size)?;
@@ -95,7 +97,7 @@ fn export_table(
     args: &FormFactorsCommand,
 ) -> Result<PathBuf, Error> {
     let mut dropped = None;
-    write_by(path, cache, |file| match (args.sparse, args.by) {
+    write_by(path, cache, |file| match (args.sparse, args.rows.by) {
         _ if is_npy(path) => table.write_npy(file),
         (None, ByArg::Patch) => table.write_matrix(file),
         (least, _) => {

@@ -38,13 +38,12 @@ fn main() -> ExitCode {
         Ok(cli) => cli.task,
         Err(code) => return code,
     };
-    let command = with_examples(Cli::command());
     let (what, written) = match task {
         Task::Radiosity(command) => return run(&command, &Site::installed()),
-        Task::Completions { shell } => ("standard output".into(), complete(shell, command)),
+        Task::Completions { shell } => ("standard output".into(), complete(shell)),
         Task::Man { folder } => {
             let made = fs::create_dir_all(&folder);
-            let written = made.and_then(|()| clap_mangen::generate_to(command, &folder));
+            let written = made.and_then(|()| clap_mangen::generate_to(described(), &folder));
             (folder, written)
         }
     };
@@ -57,9 +56,14 @@ fn main() -> ExitCode {
     }
 }
 
-fn complete(shell: Shell, mut command: clap::Command) -> io::Result<()> {
+/// The command as its help describes it.
+fn described() -> clap::Command {
+    with_examples(Cli::command())
+}
+
+fn complete(shell: Shell) -> io::Result<()> {
     let script = &mut Vec::new();
-    clap_complete::generate(shell, &mut command, "radiosity", script);
+    clap_complete::generate(shell, &mut described(), "radiosity", script);
     match io::stdout().write_all(script) {
         // That nobody reads all of it is no error.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),

@@ -1,6 +1,5 @@
 //! `reference`: the oracle's pictures and tables.
 
-use super::estimate_args::OutputArgs;
 use super::reference_args::ReferenceCommand;
 use super::reference_report::{Json, PictureReport};
 use super::run::{make_folder, with_threads, write};
@@ -36,10 +35,7 @@ pub(crate) fn run(args: &ReferenceCommand, site: &Site) -> Result<(), Error> {
     params.check().map_err(radiosity::Error::from)?;
     let folder = args.output.as_ref().unwrap_or(&site.output);
     make_folder(folder)?;
-    let terminal = Terminal::new(OutputArgs {
-        json: args.json,
-        verbose: false,
-    });
+    let terminal = Terminal::brief(args.json);
     with_threads(args.threads, || {
         let json = if args.cells || args.divisions.is_some() {
             table(args, &scene, &params.discretization, folder, &terminal)?

@@ -5,7 +5,7 @@ use super::cache_folder;
 use super::check;
 use super::compare;
 use super::display;
-use super::estimate_args::{EstimateArgs, ThreadArgs};
+use super::estimate_args::ThreadArgs;
 use super::form_factors;
 use super::inspect;
 use super::reference;
@@ -71,7 +71,7 @@ fn solve(args: &SolveCommand, site: &Site, is_anew: bool) -> Result<(), Error> {
     }
     let terminal = Terminal::new(args.estimate.output);
     with_threads(args.estimate.threads, || {
-        let store = store(&args.estimate, site);
+        let store = args.estimate.cache.store(site);
         let context = Context::new(store.as_ref(), &terminal);
         let patches = subdivide(&scene, &params.discretization, context)?;
         let factors = estimate(&patches, &params.form_factors)?;
@@ -84,7 +84,7 @@ fn solve(args: &SolveCommand, site: &Site, is_anew: bool) -> Result<(), Error> {
         if let Some(path) = &args.export {
             let irradiance = mean_irradiance(&factors, &light)?;
             let mesh = &patches.mesh;
-            let table = LightExport::new(&scene, mesh, &light, &irradiance, args.by.into());
+            let table = LightExport::new(&scene, mesh, &light, &irradiance, args.rows.by.into());
             write(path, context.cache, &table.to_csv())?;
             report.output("export", path);
         }
@@ -121,11 +121,6 @@ pub(super) fn solved<'a>(
         report.form_factors(&solved.form_factors, &solved.rows, factors);
     }
     Ok((solved, made.filter(|_| needs_factors)))
-}
-
-pub(super) fn store(args: &EstimateArgs, site: &Site) -> Option<Store> {
-    let folder = args.cache.folder.as_ref().unwrap_or(&site.cache);
-    (!args.cache.no_cache).then(|| Store::new(folder))
 }
 
 /// Runs with so many threads, or as many as there are processors.

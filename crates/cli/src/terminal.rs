@@ -54,6 +54,14 @@ pub(crate) struct Terminal {
 }
 
 impl Terminal {
+    /// For commands that have no more to say than they do.
+    pub(crate) fn brief(json: bool) -> Terminal {
+        Terminal::new(OutputArgs {
+            json,
+            verbose: false,
+        })
+    }
+
     pub(crate) fn new(args: OutputArgs) -> Terminal {
         Terminal {
             bar: Mutex::new(None),

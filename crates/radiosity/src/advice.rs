@@ -30,8 +30,8 @@ pub fn notes(scene: &Scene, mesh: &Mesh) -> Vec<String> {
 
 fn large_patch(scene: &Scene, mesh: &Mesh) -> Option<String> {
     let total: f64 = mesh.patches.iter().map(|patch| patch.area).sum();
-    let larger = |a: &&_, b: &&_| f64::total_cmp(&area(a), &area(b));
-    let largest = mesh.patches.iter().max_by(larger)?;
+    let patches = mesh.patches.iter();
+    let largest = patches.max_by(|a, b| a.area.total_cmp(&b.area))?;
     let share = largest.area / total;
     (share > LARGE).then(|| {
         format!(
@@ -42,10 +42,6 @@ fn large_patch(scene: &Scene, mesh: &Mesh) -> Option<String> {
             one_digit((total / ENOUGH).sqrt())
         )
     })
-}
-
-fn area(patch: &radiosity_geometry::Patch) -> f64 {
-    patch.area
 }
 
 /// As people would write it.

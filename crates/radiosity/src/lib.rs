@@ -45,7 +45,7 @@ pub use context::Context;
 pub use error::Error;
 pub use export::{cells, of_cells, patch_at, radiosity_table, reference_table};
 pub use factor_export::{By, FactorTable, matrix_bytes};
-pub use light_export::{LightExport, light_table_bytes};
+pub use light_export::{LightExport, light_export_bytes};
 pub use observer::{Observer, Silent, Stage};
 pub use project::{Params, Project};
 pub use remedy::Remedy;

@@ -32,7 +32,7 @@ struct LightRow<'a> {
 const BYTES_OF_ROW: u64 = 170;
 
 /// About the bytes of a table of so many patches.
-pub fn light_table_bytes(patches: u64) -> u64 {
+pub fn light_export_bytes(patches: u64) -> u64 {
     BYTES_OF_ROW * patches
 }
 

@@ -1,6 +1,6 @@
 //! What is known of a row of form factors, number by number: one list for tables and for checks.
 
-use radiosity_form_factors::RowFacts;
+use radiosity_form_factors::{RowFacts, error_of_rays};
 
 /// A number of a row.
 pub(crate) struct Column {
@@ -51,7 +51,10 @@ pub(crate) fn columns(row: &RowFacts, area: f64) -> [Column; 9] {
         0.0 => 0.0,
         _ => (1.0 - fronts - backs).max(0.0),
     };
-    let sky_error = error.map(|error| error + rays_error);
+    // Rays tell backs and background together, and their error is that of both. Whether what they
+    // meet is a back or nothing has an error, too: one share of all rays is off as any other.
+    let of_backs = rays_error * error_of_rays(backs) / error_of_rays(backs + background);
+    let sky_error = error.map(|error| error + of_backs);
     let column = |name, value, digits| Column {
         name,
         value,
@@ -131,11 +134,31 @@ mod tests {
         assert_eq!(texts[4..6], ["0.000000000", "1.00e-4"]);
     }
 
+    /// Half of all rays meet backs, and the others nothing: that no ray meets a front is sure, but
+    /// not how many meet backs.
+    #[test]
+    fn the_sky_is_as_uncertain_as_the_share_of_backs() {
+        let sky_error = |backs: f64, background: f64| {
+            let row = RowFacts {
+                fronts: 1.0 - backs - background,
+                backs,
+                background,
+                rays_error: error_of_rays(backs + background),
+                error: Some(0.0),
+                ..ROW
+            };
+            columns(&row, 1.0)[5].value.unwrap()
+        };
+        // One of 256 rays; the binomial error of a half.
+        assert!((sky_error(0.0, 0.8) * 256.0 - 1.0).abs() < 0.01);
+        assert!((sky_error(0.5, 0.5) / (0.5 / 16.0) - 1.0).abs() < 0.01);
+    }
+
     #[test]
     fn covered_rows_have_no_sky_and_untold_errors_are_empty() {
         let texts = |row: &RowFacts, area| columns(row, area).map(|column| column.text());
         let known = texts(&ROW, 2.0);
-        let expected = ["0.100000000", "1.01e-2", "1.00e-4", "0.5000", "2.00e-5"];
+        let expected = ["0.100000000", "8.85e-3", "1.00e-4", "0.5000", "2.00e-5"];
         assert_eq!(known[4..], expected);
         let untold = RowFacts { error: None, ..ROW };
         let expected = ["0.000000000", "", "", "0.5000", ""];

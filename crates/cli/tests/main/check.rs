@@ -12,6 +12,7 @@ fn check_forecasts_a_run() {
     assert_eq!(
         keys(&check),
         [
+            "cached",
             "camera",
             "disk_bytes",
             "export_bytes",
@@ -31,7 +32,10 @@ fn check_forecasts_a_run() {
         (&17.into(), &136.into())
     );
     assert_eq!(check["notes"].as_array().unwrap().len(), 0);
+    assert_eq!(check["cached"], false);
     place.succeed("form-factors room.toml --cache c --export f.npy");
+    let said = place.succeed("check room.toml --cache c");
+    assert!(said.contains("136 pairs of patches: cached, "), "{said}");
     place.succeed("form-factors room.toml --cache c --export f.csv");
     place.succeed("solve room.toml --cache c --export light.csv");
     place.succeed("display room.toml --cache c --format ppm");

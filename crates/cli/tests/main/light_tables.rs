@@ -1,7 +1,7 @@
 //! Radiosities and irradiances as tables.
 
 use crate::place::Place;
-use crate::tables::{number, read_table, text};
+use crate::tables::{cells, number, read_table};
 
 /// An L of six corners, and a triangle beside it.
 const BENT: &str = "v 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nv 3 0 0\n\
@@ -12,15 +12,7 @@ fn radiosities_are_exported_in_input_order() {
     let place = Place::new();
     let report = place.json("solve room.toml --no-cache --export table.csv");
     assert_eq!(report["outputs"]["export"], "table.csv");
-    let cells = |name: &str| -> Vec<String> {
-        let cell = |row: &_| {
-            ["surface", "ia", "ib"]
-                .map(|column| text(row, column))
-                .join(",")
-        };
-        read_table(&place, name).iter().map(cell).collect()
-    };
-    let of_room = cells("table.csv");
+    let of_room = cells(&place, "table.csv");
     assert_eq!(of_room[..3], ["floor,0,0", "floor,0,1", "floor,0,2"]);
     assert_eq!(of_room[9], "lamp,0,0");
     assert_eq!(
@@ -31,7 +23,7 @@ fn radiosities_are_exported_in_input_order() {
     place.write("block.obj", BENT);
     place.succeed("solve room.toml --no-cache --export bent.csv");
     assert_eq!(
-        cells("bent.csv")[14..],
+        cells(&place, "bent.csv")[14..],
         [
             "block,0,0",
             "block,0,1",

@@ -1,7 +1,7 @@
 //! The oracle on the command line.
 
 use crate::place::{Place, SCENE};
-use crate::tables::{read_table, text};
+use crate::tables::cells;
 use std::fs;
 
 /// The oracle: bytes depend on samples and seed, not on threads; both float maps are there.
@@ -90,15 +90,10 @@ fn reference_tables_have_the_rows_of_solutions() {
     let read = |path: &str| fs::read_to_string(place.path(path)).unwrap();
     let traced = read("out/flat-reference.csv");
     assert!(traced.starts_with("surface,ia,ib,B_r,B_g,B_b,se_r,se_g,se_b\n"));
-    let cells = |name: &str| -> Vec<String> {
-        let cell = |row: &_| {
-            ["surface", "ia", "ib"]
-                .map(|column| text(row, column))
-                .join(",")
-        };
-        read_table(&place, name).iter().map(cell).collect()
-    };
-    assert_eq!(cells("out/flat-reference.csv"), cells("solved.csv"));
+    assert_eq!(
+        cells(&place, "out/flat-reference.csv"),
+        cells(&place, "solved.csv")
+    );
 }
 
 /// A standard error needs two samples, and flags of pictures change no table.

@@ -20,8 +20,14 @@ fn split(line: &str) -> Vec<String> {
     line.split(',').map(str::to_owned).collect()
 }
 
-pub(crate) fn text(line: &BTreeMap<String, String>, column: &str) -> String {
-    line[column].clone()
+/// Of each line of a table the patch, like `floor,0,1`.
+pub(crate) fn cells(place: &Place, name: &str) -> Vec<String> {
+    let cell = |line: BTreeMap<String, String>| {
+        ["surface", "ia", "ib"]
+            .map(|column| line[column].as_str())
+            .join(",")
+    };
+    read_table(place, name).into_iter().map(cell).collect()
 }
 
 pub(crate) fn number(line: &BTreeMap<String, String>, column: &str) -> f64 {

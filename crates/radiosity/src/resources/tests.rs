@@ -50,3 +50,15 @@ fn impossible_runs_are_refused_with_a_remedy() {
         "{error}"
     );
 }
+
+#[test]
+fn exports_that_do_not_fit_are_refused_with_a_remedy() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = refusal(check_export(folder.path(), u64::MAX));
+    assert!(
+        refused.contains("the export needs 18446744 TB of disk")
+            && refused.contains("leave small entries out"),
+        "{refused}"
+    );
+    assert!(check_export(folder.path(), 0).is_ok());
+}

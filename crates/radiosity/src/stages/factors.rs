@@ -97,6 +97,12 @@ impl<'a> Factors<'a> {
         }
     }
 
+    /// Whether they are cached.
+    pub fn are_cached(&self) -> bool {
+        let cache = self.patches.context.cache;
+        cache.is_some_and(|store| store.read::<FactorFacts>(&self.id()).is_ok())
+    }
+
     /// About how many seconds it takes here to estimate them, from a timed sample; 0 if it takes
     /// less than a sample does.
     pub fn forecast(&self) -> f64 {
@@ -202,8 +208,7 @@ impl<'a> Factors<'a> {
     /// The origin that is reported if nobody has asked for the form factors.
     pub(super) fn untouched(&self) -> Origin {
         let id = self.id();
-        let is_there = |store: &&Store| store.read::<FactorFacts>(&id).is_ok();
-        let store = self.patches.context.cache.filter(is_there);
+        let store = self.patches.context.cache.filter(|_| self.are_cached());
         let file = store.map(|store| store.path(&id));
         if let Some(store) = store {
             store.tidy(&id);
