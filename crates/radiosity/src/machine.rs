@@ -5,6 +5,10 @@ use std::path::Path;
 /// The share of the free memory that a run may take.
 const USABLE_SHARE: f64 = 0.9;
 
+/// Addresses of a thread's stack: threads start after what is left has been counted.
+#[cfg(unix)]
+const STACK: u64 = (2 << 20) + (4 << 10);
+
 /// What a run may take, if that is known.
 pub(crate) fn usable_memory() -> Option<u64> {
     free_memory().map(|free| (free as f64 * USABLE_SHARE) as u64)
@@ -28,7 +32,8 @@ fn free_addresses() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let taken = status.lines().find_map(|line| line.strip_prefix("VmSize:"));
     let kilobytes = taken.and_then(|text| text.trim().trim_end_matches(" kB").parse::<u64>().ok());
-    Some(limit.saturating_sub(1024 * kilobytes.unwrap_or(0)))
+    let threads = std::thread::available_parallelism().map_or(1, |count| count.get() as u64);
+    Some(limit.saturating_sub(1024 * kilobytes.unwrap_or(0) + threads * STACK))
 }
 
 #[cfg(not(unix))]
