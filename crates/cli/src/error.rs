@@ -95,7 +95,8 @@ impl Error {
             Error::Engine(error) => error.remedy().as_ref().map(by_flags),
             Error::Input { help, .. } => help.clone(),
             Error::CacheFolder(_) => Some("choose another folder with --cache".to_owned()),
-            Error::Output { .. } => None,
+            Error::Output { error, .. } => (error.kind() == io::ErrorKind::NotFound)
+                .then(|| "make the folder first".to_owned()),
             Error::Threads(_) => Some("use fewer (--threads)".to_owned()),
         }
     }

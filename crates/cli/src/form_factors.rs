@@ -35,7 +35,9 @@ pub(super) fn run(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
         let mut report = Report::new(&patches, &terminal);
         let is_whole = args.rows.by == ByArg::Patch && args.sparse.is_none();
         if let Some(path) = export.filter(|_| is_whole) {
-            announce(path, patches.mesh.patches.len(), &terminal)?;
+            let bytes = matrix_bytes(patches.mesh.patches.len() as u64);
+            large_export(path, bytes).inspect(|warning| terminal.note(warning));
+            check_room(path, bytes)?;
         }
         let made = match args.recompute {
             true => factors.made_anew(),
@@ -64,27 +66,28 @@ fn check_arguments(path: &Path, args: &FormFactorsCommand) -> Result<(), Error> 
     check_folder_of(path)
 }
 
-/// Says how large a matrix between all patches will be, if it is large, and refuses one that does
-/// not fit on the disk, before anything is computed for it.
-fn announce(path: &Path, patches: usize, terminal: &Terminal) -> Result<(), Error> {
-    let [of_npy, of_csv] = matrix_bytes(patches as u64);
-    let (size, takes) = if is_npy(path) {
-        let takes = format!("{} of disk; `--by surface` writes less", bytes(of_npy));
-        (of_npy, takes)
-    } else {
-        let takes = format!(
-            "up to {} of disk; `--by surface` and `--sparse 1e-6` write less, and a path that ends \
-             in .npy takes {}",
-            bytes(of_csv),
-            bytes(of_npy),
-        );
-        (of_csv, takes)
-    };
-    if size >= LARGE {
-        terminal.note(&format!("warning: the export will take {takes}"));
+/// Says how large a matrix between all patches will be, if it is large. `bytes` are those of .npy
+/// and .csv.
+fn large_export(path: &Path, [of_npy, of_csv]: [u64; 2]) -> Option<String> {
+    let takes = |size| format!("warning: the export will take {} of disk", bytes(size));
+    match is_npy(path) {
+        true => (of_npy >= LARGE).then(|| format!("{}; `--by surface` writes less", takes(of_npy))),
+        false => (of_csv >= LARGE).then(|| {
+            format!(
+                "{} at most; `--by surface` and `--sparse 1e-6` write less, and a path that ends \
+                 in .npy takes {}",
+                takes(of_csv),
+                bytes(of_npy),
+            )
+        }),
     }
+}
+
+/// Refuses a matrix that does not fit on the disk, before anything is computed for it. How large
+/// one of text will be is not known.
+fn check_room(path: &Path, [of_npy, _]: [u64; 2]) -> Result<(), Error> {
     if is_npy(path) {
-        check_export(path, size)?;
+        check_export(path, of_npy)?;
     }
     Ok(())
 }
@@ -115,4 +118,21 @@ fn export_table(
 
 fn is_npy(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending == "npy")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn large_exports_are_announced() {
+        let said = |path: &str, patches| large_export(path.as_ref(), matrix_bytes(patches));
+        assert_eq!(said("f.npy", 11_000), None);
+        let of_npy = "warning: the export will take 576 MB of disk; `--by surface` writes less";
+        assert_eq!(said("f.npy", 12_000).unwrap(), of_npy);
+        assert_eq!(said("f.csv", 5_000), None);
+        let of_csv = "warning: the export will take 2.0 GB of disk at most; `--by surface` and \
+            `--sparse 1e-6` write less, and a path that ends in .npy takes 576 MB";
+        assert_eq!(said("f.csv", 12_000).unwrap(), of_csv);
+    }
 }

@@ -57,7 +57,11 @@ fn unusable(path: &Path, miss: &Miss) -> Error {
         }
         _ => "the command that needs it makes it anew",
     };
-    Error::with_help(format!("{}: {miss}", path.display()), help)
+    let named = path.display().to_string();
+    Error::with_help(
+        miss.to_string().replacen("the cached file", &named, 1),
+        help,
+    )
 }
 
 /// The names of the scene's surfaces, if it is there and can be read: the one that was named, or

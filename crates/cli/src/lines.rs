@@ -132,3 +132,36 @@ pub(crate) const LABEL_WIDTH: usize = 14;
 pub(crate) fn labelled(label: &str, text: &str) -> String {
     format!("{label:<LABEL_WIDTH$}{text}")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_that_do_not_add_up_are_told_by_surface() {
+        let unbalanced = |surface| Unbalanced {
+            surface,
+            rows: u64::from(surface) + 1,
+            worst: 1.25,
+        };
+        let rows = RowSummary {
+            mean: 1.0,
+            backs: 0.0,
+            background: 0.0,
+            exposed_backs: 0.0,
+            max_error: 0.25,
+            mean_error: 0.1,
+            excessive: 0,
+            largest: (1.25, 0),
+            estimated_error: None,
+            missed: (1200, 2e-3),
+            unbalanced: (0..5).map(unbalanced).collect(),
+            classes: None,
+            closure: None,
+        };
+        let lines = unbalanced_lines(&rows, |surface| format!("wall {surface}"));
+        let lines = lines.into_iter().chain(missed_line(&rows));
+        let lines: Vec<String> = lines.collect();
+        insta::assert_snapshot!(lines.join("\n"));
+    }
+}

@@ -56,7 +56,9 @@ impl Series<'_> {
                     .then(|| render(&params.linear()))
                     .transpose()?;
                 let linear = linear.as_ref().unwrap_or(&images);
-                let is_black = !images.iter().any(Image::shows_something);
+                // That there is no light has been said.
+                let is_black =
+                    light.energy.emitted != [0.0; 3] && !images.iter().any(Image::shows_something);
                 if is_black && look.quantity == Quantity::Radiosity {
                     self.say_why_black(shot);
                 }

@@ -86,8 +86,12 @@ impl Site {
 
     fn no_scene(&self, wanted: &Path) -> Error {
         let names = self.names().join(", ");
+        let what = match wanted.is_dir() {
+            true => "is a folder, not a scene",
+            false => "is no scene and no file",
+        };
         Error::with_help(
-            format!("there is no scene `{}`", wanted.display()),
+            format!("`{}` {what}", wanted.display()),
             format!("give the path of a scene file (.toml, .vs3), or a name: {names}"),
         )
     }

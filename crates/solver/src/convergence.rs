@@ -31,9 +31,9 @@ pub struct Convergence {
 
 impl Convergence {
     /// Whether the residual has become clearly less over the second half of the passes, so that
-    /// more of them would help.
+    /// more of them would help. One pass alone does not tell, but more of them mostly help.
     pub fn is_falling(&self) -> bool {
-        is_falling(&self.residuals)
+        self.residuals.len() < 2 || is_falling(&self.residuals)
     }
 }
 

@@ -72,7 +72,7 @@ pub(crate) fn is_growing(residuals: &[f64]) -> bool {
 /// Whether the residual has become clearly less over the second half of the passes: a long way from
 /// a system without a solution, which takes long to tell.
 pub(crate) fn is_falling(residuals: &[f64]) -> bool {
-    let middle = residuals.get(residuals.len() / 2);
+    let middle = residuals.get(residuals.len().saturating_sub(1) / 2);
     let ends = middle.zip(residuals.last());
     ends.is_some_and(|(middle, last)| *last < 0.9 * middle)
 }

@@ -16,6 +16,7 @@ mod inspect;
 mod interruption;
 mod light_tables;
 mod lights;
+mod messages;
 mod place;
 mod plots;
 mod reference;
