@@ -149,12 +149,22 @@ pub fn with_examples(command: Command) -> Command {
     for (name, examples) in EXAMPLES {
         if command.find_subcommand(name).is_some() {
             let examples = told(examples);
-            command = command.mut_subcommand(name, |of_name| {
-                of_name.max_term_width(WIDTH).after_help(examples)
-            });
+            command = command.mut_subcommand(name, |of_name| ended(of_name, &examples));
         }
     }
     command
+}
+
+/// Ends the help of a command, and of what it consists of, in examples.
+fn ended(mut command: Command, examples: &str) -> Command {
+    let parts = command.get_subcommands();
+    let parts: Vec<String> = parts.map(|part| part.get_name().to_owned()).collect();
+    for part in parts {
+        command = command.mut_subcommand(part, |part| ended(part, examples));
+    }
+    command
+        .max_term_width(WIDTH)
+        .after_help(examples.to_owned())
 }
 
 /// Leaves what is rarely used to `--help`.

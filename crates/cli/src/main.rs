@@ -21,11 +21,19 @@ enum Task {
     #[command(flatten)]
     Radiosity(Box<Command>),
     /// Print a script that completes commands and options in a shell
+    #[command(after_help = "Examples:
+  radiosity completions bash > ~/.local/share/bash-completion/completions/radiosity
+  radiosity completions zsh > ~/.zfunc/_radiosity
+  radiosity completions fish > ~/.config/fish/completions/radiosity.fish")]
     Completions {
         /// Whose script
         shell: Shell,
     },
     /// Write man pages, one for each command
+    #[command(after_help = "Examples:
+  radiosity man                                  into this folder
+  radiosity man ~/.local/share/man/man1          where `man radiosity` finds them
+  radiosity man pages; man pages/radiosity.1     into a new folder, and the first one")]
     Man {
         /// Folder for the pages
         #[arg(default_value = ".")]
