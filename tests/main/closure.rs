@@ -50,7 +50,7 @@ fn closing_leaves_what_was_estimated_alone() {
     assert_eq!(made(&closed, Some(&store)).origin.how, How::Cached);
     assert_eq!(names(&folder).len(), 2);
     assert!(first.rows.closure.is_none() && second.rows.closure.is_some());
-    let values = |made: &FormFactorsMade| made.form_factors.exchange.values().to_vec();
+    let values = |made: &FormFactorsMade| made.form_factors.exchange.matrix().values().to_vec();
     assert_ne!(values(&first), values(&second));
     // With and without a file, and read again: the same.
     let in_memory = made(&closed, None);

@@ -1,8 +1,8 @@
 //! Where the power goes, against rays that know nothing of form factors.
 
+use radiosity::Energy;
 use radiosity::form_factors::Mode;
 use radiosity::geometry::{DVec3, Mesh, Occluders, Patch, Polygon, Ray};
-use radiosity::solver::Energy;
 use radiosity::stages::PatchLight;
 use radiosity_tests::{Chain, shipped};
 use rand::{RngExt, SeedableRng};

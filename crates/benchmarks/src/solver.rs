@@ -138,7 +138,7 @@ fn passes_of(report: &Convergence) -> f64 {
 
 /// The course's sweeps beside the default solution of the same scene.
 fn beside_the_course(made: &FormFactors, figures: &[Figure]) -> Figure {
-    let patches = made.exchange.size();
+    let patches = made.areas.len();
     let ours = format!("solver.{patches}.cornell.over_relaxation.1e-6.ms");
     let ours = figures.iter().find(|figure| figure.name == ours);
     let ours = ours.and_then(|figure| figure.value);

@@ -1,6 +1,7 @@
 //! What there is to say of a solution.
 
-use radiosity::solver::{Convergence, Energy, Method};
+use radiosity::Energy;
+use radiosity::solver::{Convergence, Method};
 use radiosity::stages::Solved;
 use serde::Serialize;
 

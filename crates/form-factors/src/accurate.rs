@@ -31,9 +31,9 @@ pub(crate) struct Accurate<'a> {
     pub(crate) budget: Budget,
 }
 
-/// `S_ij` and its standard error, in scene units.
+/// `A_i F_ij` and its standard error, in scene units.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Exchange {
+pub(crate) struct PairEstimate {
     pub(crate) value: f64,
     pub(crate) error: f64,
     /// By how much the error is larger than it was to be, since there is a limit to samples.
@@ -41,11 +41,11 @@ pub(crate) struct Exchange {
     pub(crate) sight: Sight,
 }
 
-impl Exchange {
+impl PairEstimate {
     /// Of patches with nothing between them.
-    pub(crate) fn clear(value: f64, error: f64) -> Exchange {
+    pub(crate) fn clear(value: f64, error: f64) -> PairEstimate {
         let sight = Sight::Clear;
-        Exchange {
+        PairEstimate {
             value,
             error,
             missed: 0.0,
@@ -82,7 +82,7 @@ impl<'a> Accurate<'a> {
         i: usize,
         tile: usize,
         obstacles: &Obstacles,
-    ) -> [Option<Exchange>; LANES] {
+    ) -> [Option<PairEstimate>; LANES] {
         let error = UNOCCLUDED_SHARE * self.tolerance;
         let tolerance = obstacles.occluders.plane_tolerance();
         match (self.elements.single(i), &self.far_tiles[tile]) {
@@ -92,12 +92,12 @@ impl<'a> Accurate<'a> {
     }
 
     /// The exchange of a pair of patches, if nothing stood between them.
-    pub(crate) fn near(&self, pair: [usize; 2], obstacles: &Obstacles) -> Exchange {
+    pub(crate) fn near(&self, pair: [usize; 2], obstacles: &Obstacles) -> PairEstimate {
         let tolerance = obstacles.occluders.plane_tolerance();
         let pieces = self.pieces(pair);
         let exchanges = pieces.map(|[i, j]| unoccluded::exchange(i, j, tolerance));
-        exchanges.fold(Exchange::clear(0.0, 0.0), |sum, exchange| {
-            Exchange::clear(sum.value + exchange.value, sum.error + exchange.error)
+        exchanges.fold(PairEstimate::clear(0.0, 0.0), |sum, exchange| {
+            PairEstimate::clear(sum.value + exchange.value, sum.error + exchange.error)
         })
     }
 
@@ -112,10 +112,10 @@ impl<'a> Accurate<'a> {
     pub(crate) fn past(
         &self,
         pair: [usize; 2],
-        unoccluded: Exchange,
+        unoccluded: PairEstimate,
         between: &Between,
         obstacles: &Obstacles,
-    ) -> Exchange {
+    ) -> PairEstimate {
         let clear = unoccluded.value;
         if clear == 0.0 {
             return unoccluded;
@@ -135,7 +135,7 @@ impl<'a> Accurate<'a> {
         // The same for all pieces: what they may add to the error goes by what they add.
         let wanted = self.budget.of_pair(ends, clear) / clear;
         let is_whole = pair.map(|patch| self.elements.single(patch).is_some()) == [true; 2];
-        let mut sum = Exchange {
+        let mut sum = PairEstimate {
             value: 0.0,
             sight: Sight::Partial,
             ..unoccluded

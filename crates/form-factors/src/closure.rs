@@ -35,17 +35,16 @@ impl Closure {
     /// Rows whose patches see nothing but fronts, as far as rays tell, are to sum to 1; all others
     /// keep their sums.
     pub fn of(form_factors: &FormFactors) -> Closure {
-        let total = form_factors.total_area;
         let target = |(row, area): (&RowFacts, &f64)| {
             let is_closed = row.backs == 0.0 && row.background == 0.0 && row.fronts > 0.0;
-            area / total * if is_closed { 1.0 } else { row.fronts }
+            area * if is_closed { 1.0 } else { row.fronts }
         };
         let rows = form_factors.rows.iter().zip(&form_factors.areas);
         let targets: Vec<f64> = rows.map(target).collect();
         let mut scale = vec![1.0; targets.len()];
         let mut residual = f64::INFINITY;
         for _ in 0..MOST_ITERATIONS {
-            let sums = form_factors.exchange.product(&scale);
+            let sums = form_factors.exchange.weighted_sums(&scale);
             residual = 0.0;
             for ((d, sum), target) in scale.iter_mut().zip(&sums).zip(&targets) {
                 // What sees nothing cannot be scaled.
@@ -70,26 +69,26 @@ impl Closure {
 
     /// Scales form factors, in memory.
     pub fn close(&self, form_factors: &FormFactors) -> FormFactors {
-        let size = form_factors.exchange.size();
-        let mut values = form_factors.exchange.values().to_vec();
+        let size = form_factors.areas.len();
+        let mut values = form_factors.exchange.matrix().values().to_vec();
         self.apply(0..size, &mut values);
-        let exchange = SymmetricMatrix::new(size, values).expect("they are as many as before");
-        self.complete(form_factors, exchange)
+        let matrix = SymmetricMatrix::new(size, values).expect("they are as many as before");
+        self.complete(form_factors, matrix)
     }
 
-    /// The form factors with all values scaled: `exchange` has those of [`Closure::apply`].
-    pub fn complete(&self, form_factors: &FormFactors, exchange: SymmetricMatrix) -> FormFactors {
-        let total = form_factors.total_area;
-        let sums = exchange.row_sums();
+    /// The form factors with all values scaled: `matrix` has those of [`Closure::apply`].
+    pub fn complete(&self, form_factors: &FormFactors, matrix: SymmetricMatrix) -> FormFactors {
+        let areas = form_factors.areas.clone();
+        let exchange = form_factors.exchange.with_matrix(matrix);
+        let sums = exchange.weighted_sums(&vec![1.0; areas.len()]);
         let row = |(i, row): (usize, &RowFacts)| RowFacts {
-            fronts: quotient(sums[i] * total, form_factors.areas[i]),
+            fronts: quotient(sums[i], areas[i]),
             ..*row
         };
         FormFactors {
-            areas: form_factors.areas.clone(),
-            total_area: total,
             exchange,
             rows: form_factors.rows.iter().enumerate().map(row).collect(),
+            areas,
             classes: form_factors.classes,
             closure: Some(self.facts),
         }

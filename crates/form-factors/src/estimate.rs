@@ -170,8 +170,8 @@ impl<'a> Estimation<'a> {
         let tally = Tally::new(size);
         let all = (0..size, &mut values[..]);
         self.fill(all, 0..self.tiling.tiles.len(), &tally);
-        let exchange = SymmetricMatrix::new(size, values).expect("one value per pair was made");
-        self.complete(exchange, &tally)
+        let matrix = SymmetricMatrix::new(size, values).expect("one value per pair was made");
+        self.complete(matrix, &tally)
     }
 
     /// The next rows after the first so many, if they can be estimated by themselves: the fewest
@@ -199,7 +199,7 @@ impl<'a> Estimation<'a> {
     }
 
     /// What all rows together make, once all are filled.
-    pub fn complete(&self, exchange: SymmetricMatrix, tally: &Tally) -> FormFactors {
+    pub fn complete(&self, matrix: SymmetricMatrix, tally: &Tally) -> FormFactors {
         let look = |patch| match self.method {
             Method::Accurate(_) => around_free_part(self.mesh, &self.obstacles, patch),
             Method::Regular(_) | Method::MonteCarlo(_) => {
@@ -209,7 +209,7 @@ impl<'a> Estimation<'a> {
         let patches = 0..self.mesh.patches.len();
         let surroundings: Vec<Surroundings> = patches.into_par_iter().map(look).collect();
         let errors = self.tells_errors().then(|| tally.sums());
-        FormFactors::new(self.areas.clone(), exchange, errors, &surroundings)
+        FormFactors::new(self.areas.clone(), matrix, errors, &surroundings)
     }
 
     /// Whether the estimator knows the errors of its rows.

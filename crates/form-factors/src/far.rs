@@ -1,7 +1,7 @@
 //! The exchange of a patch with those of a tile, with nothing between them and far apart: by the
 //! smallest of Gauss's rules that is good enough, one pair per lane.
 
-use crate::accurate::Exchange;
+use crate::accurate::PairEstimate;
 use crate::element::{Element, RULES};
 use crate::target::dot;
 use arrayvec::ArrayVec;
@@ -80,7 +80,7 @@ pub(crate) fn exchange(
     tile: &FarTile,
     error: f64,
     tolerance: f64,
-) -> [Option<Exchange>; LANES] {
+) -> [Option<PairEstimate>; LANES] {
     let found = dispatch(Far {
         patch,
         tile,
@@ -89,7 +89,7 @@ pub(crate) fn exchange(
     });
     std::array::from_fn(|lane| {
         let is_far = found.far & tile.used & 1 << lane != 0;
-        is_far.then(|| Exchange::clear(found.values[lane], error * found.squarely[lane]))
+        is_far.then(|| PairEstimate::clear(found.values[lane], error * found.squarely[lane]))
     })
 }
 
@@ -156,7 +156,7 @@ impl Far<'_> {
         whole
     }
 
-    /// `S_ij` by all pairs of the points of a rule.
+    /// `A_i F_ij` by all pairs of the points of a rule.
     #[inline(always)]
     fn integral<S: Simd>(&self, simd: S, rule: usize) -> S::F64 {
         let Far { patch, tile, .. } = self;

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! - Reciprocity `A_i F_ij = A_j F_ji` holds by construction: one number
-//!   `S_ij = A_i F_ij` is stored per pair.
+//!   `A_i F_ij` is stored per pair.
 //! - A patch sees what is in front of it and shows its own front; both sides of a face block.
 //! - Two patches of one planar face, or of faces joined to one wall, have `F = 0`. That goes by
 //!   face: two faces of one mesh see each other like any others.
@@ -27,6 +27,7 @@ mod cells;
 mod closure;
 mod contour;
 mod element;
+mod elements;
 mod estimate;
 mod estimator;
 mod exchange;
@@ -60,7 +61,8 @@ mod transfer;
 mod unoccluded;
 mod visible;
 
-use radiosity_matrix::SymmetricMatrix;
+use elements::{visible_areas, visible_share};
+use radiosity_matrix::{DenseExchange, Exchange, SymmetricMatrix};
 use serde::{Deserialize, Serialize};
 use surroundings::Surroundings;
 use tally::Errors;
@@ -104,14 +106,14 @@ pub struct RowFacts {
 /// The form factors of all pairs.
 #[derive(Clone, Debug)]
 pub struct FormFactors {
-    /// By patch, the area that exchanges light, in square scene units. The accurate estimator
-    /// leaves out what other faces [lie on](radiosity_geometry::Covers); where they cover all, it
-    /// is 0, and so are the patch's factors.
+    /// By patch, its area in square scene units. The accurate estimator leaves out what other faces
+    /// [lie on](radiosity_geometry::Covers); where they cover all, it is 0, and so are the patch's
+    /// factors.
     pub areas: Vec<f64>,
-    /// `S_ij = A_i F_ij`, in units of the total area.
-    pub exchange: SymmetricMatrix,
-    /// The sum of these areas.
-    pub total_area: f64,
+    /// `A_i F_ij`, and the areas of *elements*: of that part of a patch that exchanges light, of
+    /// which a radiosity is the mean. By the accurate estimator it is what can be seen of the
+    /// patch. By the others it is all of it, as in textbooks.
+    pub exchange: DenseExchange,
     /// Per patch.
     pub rows: Vec<RowFacts>,
     /// Of pairs, if the estimator tells.
@@ -121,17 +123,18 @@ pub struct FormFactors {
 }
 
 impl FormFactors {
-    /// Completes areas and matrix by the facts that follow from them.
+    /// Completes areas and matrix by the facts that follow from them. `errors` are those of an
+    /// estimator that tells them: its elements are what can be seen of patches.
     fn new(
         areas: Vec<f64>,
-        exchange: SymmetricMatrix,
+        matrix: SymmetricMatrix,
         errors: Option<Errors>,
         surroundings: &[Surroundings],
     ) -> FormFactors {
-        let total: f64 = areas.iter().sum();
-        let fronts = exchange.row_sums();
+        let whole = DenseExchange::new(matrix, areas.clone());
+        let fronts = whole.weighted_sums(&vec![1.0; areas.len()]);
         let row = |i: usize| RowFacts {
-            fronts: quotient(fronts[i] * total, areas[i]),
+            fronts: quotient(fronts[i], areas[i]),
             backs: surroundings[i].backs,
             background: surroundings[i].background,
             rays_error: surroundings[i].error,
@@ -139,10 +142,14 @@ impl FormFactors {
             error: errors.as_ref().map(|errors| errors.estimated[i]),
             missed: errors.as_ref().map_or(0.0, |errors| errors.missed[i]),
         };
+        let rows: Vec<RowFacts> = (0..areas.len()).map(row).collect();
+        let exchange = match errors {
+            Some(_) => whole.of_parts(visible_areas(&areas, &rows)),
+            None => whole,
+        };
         FormFactors {
-            rows: (0..areas.len()).map(row).collect(),
+            rows,
             areas,
-            total_area: total,
             exchange,
             classes: errors.map(|errors| errors.classes),
             closure: None,
@@ -151,16 +158,46 @@ impl FormFactors {
 
     /// `F_ij` for all `j`.
     pub fn row(&self, i: usize) -> Vec<f64> {
-        let scale = quotient(self.total_area, self.areas[i]);
-        let factor = |j| f64::from(self.exchange.get(i, j)) * scale;
-        (0..self.areas.len()).map(factor).collect()
+        (0..self.areas.len()).map(|j| self.factor(i, j)).collect()
     }
 
     /// `F_ij`: the share of the power leaving patch `i` that arrives at patch `j`, in constant
-    /// time.
+    /// time. Of all of the patch, what cannot be seen of it included, which sees nothing of `j`.
     pub fn factor(&self, i: usize, j: usize) -> f64 {
-        let exchange = f64::from(self.exchange.get(i, j)) * self.total_area;
-        quotient(exchange, self.areas[i])
+        quotient(self.exchange.area(i, j), self.areas[i])
+    }
+
+    /// The powers that arrive at backs, and that leave the scene, where `exitance` is what each
+    /// element radiates, per channel in W/m^2: by rays, and so independent of the factors.
+    pub fn lost(&self, exitance: &[[f32; 3]]) -> [[f64; 3]; 2] {
+        let mut lost = [[0.0; 3]; 2];
+        for (i, (row, exitance)) in self.rows.iter().zip(exitance).enumerate() {
+            // What of a patch is no element sees nothing but backs.
+            let hidden = self.areas[i] - self.exchange.areas()[i];
+            let backs = (self.areas[i] * row.backs - hidden).max(0.0);
+            let background = self.areas[i] * row.background;
+            for c in 0..3 {
+                lost[0][c] += backs * f64::from(exitance[c]);
+                lost[1][c] += background * f64::from(exitance[c]);
+            }
+        }
+        lost
+    }
+
+    /// By patch, the share of it that is its element.
+    pub fn element_shares(&self) -> Vec<f32> {
+        let elements = self.exchange.areas().iter().zip(&self.areas);
+        let share = |(element, &area): (&f64, &f64)| match area > 0.0 {
+            true => (element / area) as f32,
+            false => 1.0,
+        };
+        elements.map(share).collect()
+    }
+
+    /// By patch, the share of it that can be seen, or 0 if that is too little to be told apart.
+    pub fn visible_shares(&self) -> Vec<f32> {
+        let shares = self.rows.iter().map(visible_share);
+        shares.map(|share| share as f32).collect()
     }
 }
 

@@ -34,15 +34,14 @@ impl FormFactors {
     /// The form factors between parts; `part_of[i]`, below `parts`, is that of patch `i`, and no
     /// part is empty.
     pub fn lumped(&self, part_of: &[usize], parts: usize) -> LumpedFactors {
-        let total: f64 = self.areas.iter().sum();
         let mut areas = vec![0.0; parts];
         for (&part, area) in part_of.iter().zip(&self.areas) {
             areas[part] += area;
         }
-        let mut factors = self.exchange.lumped_sums(part_of, parts);
+        let mut factors = self.exchange.areas_between(part_of, parts);
         for (row, area) in factors.chunks_mut(parts.max(1)).zip(&areas) {
             row.iter_mut()
-                .for_each(|factor| *factor *= quotient(total, *area));
+                .for_each(|factor| *factor = quotient(*factor, *area));
         }
         LumpedFactors {
             rows: self.lumped_rows(part_of, &areas),

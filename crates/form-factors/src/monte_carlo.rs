@@ -31,7 +31,7 @@ impl MonteCarlo {
         }
     }
 
-    /// `S_ij` of patches with indices `(i, j)`; depends on these, the seed and the patches
+    /// `A_i F_ij` of patches with indices `(i, j)`; depends on these, the seed and the patches
     /// alone.
     pub(crate) fn estimate(
         &self,

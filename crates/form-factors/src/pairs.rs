@@ -1,7 +1,7 @@
 //! The walk from a tile and a group of tiles down to single pairs, and what each estimator makes of
 //! them.
 
-use crate::accurate::{Accurate, Exchange};
+use crate::accurate::{Accurate, PairEstimate};
 use crate::estimate::{Estimation, Method, Room};
 use crate::lines::MOST_BLOCKERS;
 use crate::obstacles::Between;
@@ -19,10 +19,10 @@ const MANY: usize = 256;
 /// What is found out about a patch and some others, often a single one.
 pub(crate) struct TileBlock<'a> {
     pub(crate) others: &'a [usize],
-    /// `S_ij` with each of them, in units of the total area.
+    /// `A_i F_ij` with each of them, in units of the total area.
     pub(crate) values: &'a [f32],
     /// The same of a pair with its error, if that is known.
-    pub(crate) estimate: Option<Exchange>,
+    pub(crate) estimate: Option<PairEstimate>,
 }
 
 impl<'a> TileBlock<'a> {
@@ -183,9 +183,9 @@ impl Estimation<'_> {
         &self,
         accurate: &Accurate<'_>,
         pair: [usize; 2],
-        far: Option<Exchange>,
+        far: Option<PairEstimate>,
         between: &Between,
-    ) -> Option<Exchange> {
+    ) -> Option<PairEstimate> {
         if far.is_some() && between.is_clear() {
             return far;
         }

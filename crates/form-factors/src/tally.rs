@@ -1,6 +1,6 @@
 //! What is counted while rows are filled: the same whatever the order.
 
-use crate::accurate::Exchange;
+use crate::accurate::PairEstimate;
 use crate::fixed::{Fixed, FixedSums};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::ops::AddAssign;
@@ -50,7 +50,7 @@ pub(crate) struct RowError {
 
 impl RowError {
     /// Of a pair in the row of a patch of this area.
-    pub(crate) fn of(exchange: &Exchange, area: f64) -> RowError {
+    pub(crate) fn of(exchange: &PairEstimate, area: f64) -> RowError {
         RowError {
             error: Fixed::of(exchange.error / area),
             missed: Fixed::of(exchange.missed / area),

@@ -5,7 +5,7 @@
 //! pieces with edges far from the smaller one are integrated by Lambert's formula, and the others
 //! become as small as that one is.
 
-use crate::accurate::Exchange;
+use crate::accurate::PairEstimate;
 use crate::contour::{self, Integral};
 use crate::element::{Corners, Element};
 use crate::lambert;
@@ -36,15 +36,15 @@ struct Piece {
     integral: Integral,
 }
 
-/// `S_ij` of two patches, if nothing stood between them, over what either has in front of the
+/// `A_i F_ij` of two patches, if nothing stood between them, over what either has in front of the
 /// other. `tolerance` is the height up to which a corner counts as in a plane.
-pub(crate) fn exchange(i: &Element, j: &Element, tolerance: f64) -> Exchange {
+pub(crate) fn exchange(i: &Element, j: &Element, tolerance: f64) -> PairEstimate {
     let parts = (
         j.clip(i.corners(), tolerance),
         i.clip(j.corners(), tolerance),
     );
     let (Some(part_i), Some(part_j)) = parts else {
-        return Exchange::clear(0.0, 0.0);
+        return PairEstimate::clear(0.0, 0.0);
     };
     let sides = [(part_i, i.normal), (part_j, j.normal)];
     let whole = Piece::new(
@@ -55,7 +55,7 @@ pub(crate) fn exchange(i: &Element, j: &Element, tolerance: f64) -> Exchange {
     // Parts that barely see each other may come out below zero, by rounding. What is no number
     // stays so.
     let value = if value < 0.0 { 0.0 } else { value };
-    Exchange::clear(value, CONTOUR_ERROR * value + rounding)
+    PairEstimate::clear(value, CONTOUR_ERROR * value + rounding)
 }
 
 /// The exchange of two polygons, halved as long as rounding costs too much.

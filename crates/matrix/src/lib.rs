@@ -1,15 +1,18 @@
-//! The packed symmetric matrix of the form factors, owned or memory-mapped.
+//! How patches exchange light, as solvers see it: [`Exchange`], and the packed symmetric matrix
+//! behind [`DenseExchange`], owned or memory-mapped.
 //!
-//! Holds one number per unordered pair, so whatever is stored is symmetric by construction.
-//! The diagonal is zero: planar patches do not see themselves.
+//! The matrix holds one number per unordered pair, so whatever is stored is symmetric by
+//! construction. The diagonal is zero: planar patches do not see themselves.
 //!
-//! This crate knows nothing of what its numbers mean, nor of files.
+//! This crate knows nothing of geometry, nor of files.
 
+mod exchange;
 mod sweep;
 
 #[cfg(test)]
 mod tests;
 
+pub use exchange::{DenseExchange, Exchange, Sweep};
 pub use sweep::{Triple, Update};
 
 use rayon::prelude::*;

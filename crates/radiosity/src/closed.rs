@@ -33,17 +33,17 @@ pub(crate) fn closed(
         job.observer
             .note(&not_kept(error, id, 0.0, Sources::Computed));
     })?;
-    let exchange = SymmetricMatrix::new(raw.exchange.size(), draft.values()?);
-    let made = closure.complete(raw, exchange.expect("all rows are made"));
+    let matrix = SymmetricMatrix::new(raw.areas.len(), draft.values()?);
+    let made = closure.complete(raw, matrix.expect("all rows are made"));
     let is_cached = usable(draft.finish(&facts(&made)), job.observer, id) == Some(true);
     Ok((made, is_cached))
 }
 
 /// All rows, scaled, without a second copy in memory.
 fn batches(closure: &Closure, raw: &FormFactors) -> impl Iterator<Item = Batch<()>> {
-    runs(raw.exchange.size()).map(|rows| {
+    runs(raw.areas.len()).map(|rows| {
         let range = packed_len(rows.start)..packed_len(rows.end);
-        let mut values = raw.exchange.values()[range].to_vec();
+        let mut values = raw.exchange.matrix().values()[range].to_vec();
         closure.apply(rows, &mut values);
         Batch {
             values: vec![values],

@@ -1,5 +1,6 @@
 //! Why pictures are black.
 
+use crate::energy::Energy;
 use crate::face_rays::{cosine_rays, spread};
 use crate::stages::{Dimming, Patches};
 use crate::words::named;
@@ -7,7 +8,6 @@ use radiosity_form_factors::Mode;
 use radiosity_geometry::{Backs, Camera, DVec2, Face, FaceId, Mesh, Occluders, Patch, Ray};
 use radiosity_renderer::ImageParams;
 use radiosity_scene::{Light, Scene};
-use radiosity_solver::Energy;
 use std::collections::BTreeSet;
 
 /// Of the light, where more meets backs it is said.

@@ -172,6 +172,10 @@ impl Error {
                 problem: error.to_string(),
                 remedy: Remedy::MoreSweeps,
             },
+            SolveError::NoRows => Error::Unsolvable {
+                problem: error.to_string(),
+                remedy: Remedy::words("solve by conjugate gradients"),
+            },
             SolveError::NotFinite { patch } | SolveError::OutOfRange { patch } => {
                 Error::Unsolvable {
                     problem: format!("{error}; it belongs to `{}`", name_of(*patch)),

@@ -51,7 +51,6 @@ enum Entries<'a> {
         form_factors: &'a FormFactors,
         /// The patch of each row.
         order: Vec<usize>,
-        total_area: f64,
     },
     OfParts(LumpedFactors),
 }
@@ -128,7 +127,6 @@ impl<'a> FactorTable<'a> {
             entries: Entries::OfPatches {
                 form_factors,
                 order: order.into_iter().map(|(patch, _)| patch).collect(),
-                total_area: form_factors.areas.iter().sum(),
             },
         }
     }
@@ -144,14 +142,7 @@ impl<'a> FactorTable<'a> {
             Entries::OfPatches {
                 form_factors,
                 order,
-                total_area,
-            } => {
-                let exchange = form_factors.exchange.get(order[i], order[j]);
-                match self.rows[i].area {
-                    0.0 => 0.0,
-                    area => f64::from(exchange) * total_area / area,
-                }
-            }
+            } => form_factors.factor(order[i], order[j]),
             Entries::OfParts(lumped) => lumped.factor(i, j),
         }
     }

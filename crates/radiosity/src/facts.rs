@@ -1,11 +1,12 @@
 //! What the files of the cache hold beside their arrays.
 
+use crate::energy::Energy;
 use crate::export::faces_in_input_order;
 use crate::row_columns::is_finite;
 use crate::rows::RowSummary;
 use radiosity_form_factors::{Classes, ClosureFacts, Estimator, FormFactors, RowFacts};
 use radiosity_geometry::{Face, Mesh};
-use radiosity_matrix::packed_len;
+use radiosity_matrix::{Exchange, packed_len};
 use radiosity_solver::Convergence;
 use serde::{Deserialize, Serialize};
 
@@ -16,9 +17,9 @@ pub const CLOSURE: &str = "closure";
 /// That of radiosities.
 pub const SOLUTION: &str = "solution";
 /// Raise it whenever the layout of [`FactorFacts`] changes: it is part of their keys.
-pub const FACTORS_VERSION: u32 = 10;
+pub const FACTORS_VERSION: u32 = 11;
 /// The same for [`SolutionFacts`].
-pub const SOLUTION_VERSION: u32 = 12;
+pub const SOLUTION_VERSION: u32 = 13;
 
 /// Beside the matrix of form factors.
 #[derive(Debug, Serialize, Deserialize)]
@@ -29,8 +30,10 @@ pub struct FactorFacts {
     pub patches_of_surfaces: Vec<u32>,
     /// The number of each patch's row in exported tables.
     pub exported_as: Vec<u32>,
-    /// Per patch, the area that exchanges light.
+    /// Per patch.
     pub areas: Vec<f64>,
+    /// Per patch, the area of the part that exchanges light.
+    pub elements: Vec<f64>,
     /// Per patch.
     pub rows: Vec<RowFacts>,
     /// Pairs by how much they see of each other, if the estimator tells.
@@ -48,7 +51,11 @@ pub struct SolutionFacts {
     pub rows: RowSummary,
     /// The names of the lights, in the order of their radiosities. Their direct parts follow.
     pub lights: Vec<String>,
-    /// Of each patch, the share that exchanges light; 0 where next to nothing of it does.
+    /// Of each light, where its power goes.
+    pub energies: Vec<Energy>,
+    /// Of each patch, the share that exchanges light.
+    pub elements: Vec<f32>,
+    /// Of each patch, the share that can be seen; 0 where next to nothing can.
     pub visible: Vec<f32>,
 }
 
@@ -59,6 +66,7 @@ impl FactorFacts {
             patches_of_surfaces: patches_of_surfaces(mesh),
             exported_as: exported_as(mesh),
             areas: made.areas.clone(),
+            elements: made.exchange.areas().to_vec(),
             rows: made.rows.clone(),
             classes: made.classes,
             closure: made.closure,
@@ -76,6 +84,7 @@ impl FactorFacts {
             patches_of_surfaces: patches_of_surfaces(mesh),
             exported_as: exported_as(mesh),
             areas: vec![0.0; mesh.patches.len()],
+            elements: vec![0.0; mesh.patches.len()],
             rows: vec![row; mesh.patches.len()],
             classes: tells_errors.then(Classes::default),
             closure: None,
@@ -92,10 +101,13 @@ impl FactorFacts {
             .iter()
             .map(|&count| u64::from(count));
         let mut rows = self.rows.iter().zip(&self.areas);
+        let mut elements = self.elements.iter().zip(&self.areas);
         packed_len(patches) == values
             && counts.sum::<u64>() == patches as u64
             && self.exported_as.len() == patches
             && self.areas.len() == patches
+            && self.elements.len() == patches
+            && elements.all(|(element, area)| (0.0..=*area).contains(element))
             && self.exported_as.iter().all(|&row| (row as usize) < patches)
             && rows.all(|(row, area)| area.is_finite() && is_finite(row, *area))
     }
@@ -115,10 +127,11 @@ impl SolutionFacts {
     /// The same, of a solution and its values.
     pub(crate) fn are_sound(&self, values: &[f32]) -> bool {
         let (patches, lights) = (self.visible.len(), self.lights.len());
-        let numbers = values.iter().chain(&self.visible);
+        let numbers = values.iter().chain(&self.visible).chain(&self.elements);
         values.len() == 6 * lights * patches
             && numbers.copied().all(f32::is_finite)
-            && self.report.energies.len() == lights
+            && self.elements.len() == patches
+            && self.energies.len() == lights
             && self.rows.largest.1 < (patches as u64).max(1)
     }
 }

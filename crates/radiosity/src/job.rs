@@ -33,8 +33,8 @@ impl Job<'_> {
         let patches = self.mesh.patches.len();
         let (values, tally) = estimate_in_memory(estimation, self.observer);
         self.observer.end();
-        let exchange = SymmetricMatrix::new(patches, values).expect("all rows are made");
-        estimation.complete(exchange, &tally)
+        let matrix = SymmetricMatrix::new(patches, values).expect("all rows are made");
+        estimation.complete(matrix, &tally)
     }
 
     /// In a draft of the artifact's file, which an interrupted run may have begun. The caller has
@@ -74,9 +74,9 @@ impl Job<'_> {
         });
         self.observer.end();
         written?;
-        let exchange = SymmetricMatrix::new(self.mesh.patches.len(), draft.values()?);
-        let exchange = exchange.expect("all rows are made");
-        let made = estimation.complete(exchange, &batches.into_tally());
+        let matrix = SymmetricMatrix::new(self.mesh.patches.len(), draft.values()?);
+        let matrix = matrix.expect("all rows are made");
+        let made = estimation.complete(matrix, &batches.into_tally());
         let facts = FactorFacts::new(self.mesh, self.estimator, &made);
         let is_cached = usable(draft.finish(&facts), self.observer, id) == Some(true);
         Ok((made, is_cached))

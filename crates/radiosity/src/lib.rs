@@ -19,6 +19,7 @@ mod closed;
 mod context;
 pub mod covers;
 pub mod darkness;
+mod energy;
 mod error;
 mod export;
 mod face_rays;
@@ -42,6 +43,7 @@ pub mod words;
 
 pub use artifact::{How, Origin};
 pub use context::Context;
+pub use energy::Energy;
 pub use error::Error;
 pub use export::{cells, of_cells, patch_at, radiosity_table, reference_table};
 pub use factor_export::{By, FactorTable, matrix_bytes};

@@ -3,19 +3,21 @@
 #![allow(missing_docs, reason = "criterion's macros write public items")]
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use radiosity_matrix::{SymmetricMatrix, packed_len};
+use radiosity_matrix::{DenseExchange, SymmetricMatrix, packed_len};
 use radiosity_solver::{Params, System, relit, solve};
 
 fn solutions(criterion: &mut Criterion) {
     for size in [1728, 6912] {
         let row_sum_one = 1.0 / (size * (size - 1)) as f32;
-        let exchange = SymmetricMatrix::new(size, vec![row_sum_one; packed_len(size)])
+        let matrix = SymmetricMatrix::new(size, vec![row_sum_one; packed_len(size)])
             .expect("one value per pair");
         let mut light = vec![[0.0; 3]; size];
         light[size / 2] = [1.0, 0.5, 0.25];
-        let (areas, reflectance) = (vec![1.0; size], vec![[0.5, 0.7, 0.9]; size]);
-        let lights = [light];
-        let system = System::new(&exchange, &areas, &reflectance, &lights);
+        let system = System {
+            exchange: &DenseExchange::new(matrix, vec![1.0; size]),
+            reflectance: &vec![[0.5, 0.7, 0.9]; size],
+            lights: &[light],
+        };
         let mut group = criterion.benchmark_group(format!("{size} patches"));
         for (name, params) in Params::default().by_each_method() {
             group.bench_function(name, |b| {

@@ -1,18 +1,18 @@
 //! Conjugate gradients on the symmetrized system.
 //!
-//! Row `i` times `1 / gain_i = A_i / rho_i` makes the system symmetric,
+//! Row `i` times its weight `w_i = A_i / rho_i` makes the system symmetric, since `A F` is,
 //!
 //! ```text
-//! M x = b ,   M = diag(1 / gain) - S ,   b_i = E_i / gain_i ,
+//! M x = b ,   M = diag(w) - A F ,   b_i = w_i E_i ,
 //! ```
 //!
-//! and positive definite where light dies away. Preconditioned by `diag(gain)`, the residual
-//! `z = E + gain S x - x` is that of the radiosity equation itself (Saad, "Iterative Methods for
+//! and positive definite where light dies away. Preconditioned by `diag(1 / w)`, the residual
+//! `z = E + rho F x - x` is that of the radiosity equation itself (Saad, "Iterative Methods for
 //! Sparse Linear Systems", 2003, algorithm 9.1):
 //!
 //! ```text
-//! alpha = (z, z / gain) / (p, M p) ,   x <- x + alpha p ,   z <- z - alpha gain M p ,
-//! beta = (z, z / gain) / (the same before) ,   p <- z + beta p
+//! alpha = (z, w z) / (p, M p) ,   x <- x + alpha p ,   z <- z - alpha M p / w ,
+//! beta = (z, w z) / (the same before) ,   p <- z + beta p
 //! ```
 //!
 //! for each channel of each light by itself, with one product for all. Black rows are solved from
@@ -23,7 +23,7 @@
 //! nothing. When all channels rest, the true residual is computed, of the values in single
 //! precision; where it is not small enough yet, everything begins anew from there.
 //!
-//! The numbers `alpha` and `beta` tell the smallest eigenvalue of `gain M` ([`crate::channel`]),
+//! The numbers `alpha` and `beta` tell the smallest eigenvalue of `M / w` ([`crate::channel`]),
 //! and that tells the error.
 //!
 //! Long because: the algorithm, its stopping rule and its check are read together.
@@ -31,7 +31,7 @@
 use crate::Rgb;
 use crate::channel::Channel;
 use crate::convergence::Progress;
-use crate::problem::{LOST, Problem, Values, joined, ratio, worst};
+use crate::problem::{LOST, Problem, Values, ratio, worst};
 use crate::solve::Iteration;
 use radiosity_matrix::Triple;
 use std::rc::Rc;
@@ -53,19 +53,20 @@ pub(crate) struct ConjugateGradients<'a> {
 /// Values in single precision, of which the residual is no matter of recurrence.
 struct Verified {
     x: Values<f32>,
-    /// `sum_j S_ij x_j`.
-    sums: Values<f64>,
+    /// What arrives where they leave.
+    irradiance: Values<f64>,
     residual: f64,
     error: f64,
 }
 
 impl<'a> ConjugateGradients<'a> {
-    /// Begins at values whose sums are known.
+    /// Begins at the emission, of which it is known what arrives.
     pub(crate) fn new(
         problem: Rc<Problem<'a>>,
-        (x, sums): (Values<f32>, [Values<f64>; 2]),
+        irradiance: &[Triple<f64>],
         tolerance: f64,
     ) -> ConjugateGradients<'a> {
+        let emission = problem.emission.clone();
         let mut iteration = ConjugateGradients {
             tolerance,
             x: Values::new(),
@@ -76,7 +77,7 @@ impl<'a> ConjugateGradients<'a> {
             best: None,
             is_verified: false,
         };
-        iteration.restart(&x, &all_joined(&sums));
+        iteration.restart(&emission, irradiance);
         // A pass is taken in any case, and may as well do something.
         iteration
             .channels
@@ -85,13 +86,13 @@ impl<'a> ConjugateGradients<'a> {
         iteration
     }
 
-    /// Begins at values whose products are known.
-    fn restart(&mut self, x: &[Triple<f32>], sums: &[Triple<f64>]) {
+    /// Begins at values of which it is known what arrives where they leave.
+    fn restart(&mut self, x: &[Triple<f32>], irradiance: &[Triple<f64>]) {
         let problem = &self.problem;
-        let is_black = |k: usize, c: usize| problem.gain[k / problem.lights()][c] == 0.0;
+        let is_black = |k: usize, c: usize| problem.reflectance[k / problem.lights()][c] == 0.0;
         self.x = x.iter().map(|x| x.map(f64::from)).collect();
         let residual = |k: usize| -> Rgb {
-            let z = problem.residual_at(k, &sums[k], &x[k]);
+            let z = problem.residual_at(k, &irradiance[k], &x[k]);
             std::array::from_fn(|c| if is_black(k, c) { 0.0 } else { z[c] })
         };
         self.z = (0..x.len()).map(residual).collect();
@@ -114,36 +115,37 @@ impl<'a> ConjugateGradients<'a> {
         }
     }
 
-    /// A sum over all rows for each channel of each light; `term` is asked by index, channel and
-    /// gain, where that is not zero.
+    /// A sum over all rows, weighted by area, for each channel of each light; `term` is asked by
+    /// index, channel and reflectance, where that is not zero.
     fn reduced(&self, term: impl Fn(usize, usize, f64) -> f64) -> Vec<f64> {
         let lights = self.problem.lights();
         let mut sums = vec![[0.0; 3]; lights];
         for k in 0..self.x.len() {
-            let gain = &self.problem.gain[k / lights];
-            for c in (0..3).filter(|&c| gain[c] > 0.0) {
-                sums[k % lights][c] += term(k, c, gain[c]);
+            let area = self.problem.areas[k / lights];
+            let rho = &self.problem.reflectance[k / lights];
+            for c in (0..3).filter(|&c| rho[c] > 0.0) {
+                sums[k % lights][c] += area * term(k, c, rho[c]);
             }
         }
         sums.into_flattened()
     }
 
     fn squares(&self) -> Vec<f64> {
-        // Where gains are tiny, so are residuals: their quotient is ordinary.
-        self.reduced(|k, c, gain| self.z[k][c] * (self.z[k][c] / gain))
+        // Where reflectances are tiny, so are residuals: their quotient is ordinary.
+        self.reduced(|k, c, rho| self.z[k][c] * (self.z[k][c] / rho))
     }
 
     /// One step of all channels that do not rest.
     fn step(&mut self) {
         let mut p = std::mem::take(&mut self.p);
-        let sums = all_joined(&self.problem.sums(&mut p));
-        let lengths = self.reduced(|k, c, gain| f64::from(p[k][c]) * (f64::from(p[k][c]) / gain));
-        let reflected = self.reduced(|k, c, _| f64::from(p[k][c]) * sums[k][c]);
+        let arrives = self.problem.irradiance(&p);
+        let lengths = self.reduced(|k, c, rho| f64::from(p[k][c]) * (f64::from(p[k][c]) / rho));
+        let reflected = self.reduced(|k, c, _| f64::from(p[k][c]) * arrives[k][c]);
         let channels = self.channels.iter_mut().zip(lengths).zip(reflected);
         let alphas: Vec<f64> = channels
             .map(|((channel, length), reflected)| channel.alpha(length, reflected))
             .collect();
-        self.go(&alphas, &p, &sums);
+        self.go(&alphas, &p, &arrives);
         let squares = self.squares();
         let steps = self.channels.iter_mut().zip(alphas).zip(squares);
         let betas: Vec<f64> = steps
@@ -154,16 +156,16 @@ impl<'a> ConjugateGradients<'a> {
         self.observe();
     }
 
-    /// Goes along `p`.
-    fn go(&mut self, alphas: &[f64], p: &[Triple<f32>], sums: &[Triple<f64>]) {
+    /// Goes along `p`, of which it is known what arrives.
+    fn go(&mut self, alphas: &[f64], p: &[Triple<f32>], arrives: &[Triple<f64>]) {
         let lights = self.problem.lights();
         for k in 0..self.x.len() {
-            let gain = &self.problem.gain[k / lights];
+            let rho = &self.problem.reflectance[k / lights];
             for c in 0..3 {
                 let alpha = alphas[3 * (k % lights) + c];
                 let p = f64::from(p[k][c]);
                 self.x[k][c] += alpha * p;
-                self.z[k][c] -= alpha * (p - gain[c] * sums[k][c]);
+                self.z[k][c] -= alpha * (p - rho[c] * arrives[k][c]);
             }
         }
     }
@@ -189,14 +191,14 @@ impl<'a> ConjugateGradients<'a> {
 
     /// Finds the residual of the values in single precision; keeps them if they are the best.
     fn verify(&mut self) {
-        let mut x: Values<f32> = self.x.iter().map(|x| x.map(|x| x as f32)).collect();
-        let sums = all_joined(&self.problem.sums(&mut x));
-        let at = |k: usize| self.problem.residual_at(k, &sums[k], &x[k]);
+        let x: Values<f32> = self.x.iter().map(|x| x.map(|x| x as f32)).collect();
+        let irradiance = self.problem.irradiance(&x);
+        let at = |k: usize| self.problem.residual_at(k, &irradiance[k], &x[k]);
         let (residual, error) = (self.problem.relative(at), self.error(at));
         if residual < self.best_residual() || self.best.is_none() {
             self.best = Some(Verified {
                 x,
-                sums,
+                irradiance,
                 residual,
                 error,
             });
@@ -213,7 +215,7 @@ impl<'a> ConjugateGradients<'a> {
 impl Iteration for ConjugateGradients<'_> {
     fn advance(&mut self) -> Progress {
         if let Some(best) = self.best.take_if(|_| self.is_verified) {
-            self.restart(&best.x, &best.sums);
+            self.restart(&best.x, &best.irradiance);
             self.best = Some(best);
             self.is_verified = false;
         }
@@ -247,11 +249,6 @@ impl Iteration for ConjugateGradients<'_> {
             self.verify();
         }
         let best = self.best.expect("some values are the best");
-        (best.x, best.sums)
+        (best.x, best.irradiance)
     }
-}
-
-/// The sums, both parts together.
-fn all_joined(sums: &[Values<f64>; 2]) -> Values<f64> {
-    (0..sums[0].len()).map(|k| joined(sums, k)).collect()
 }

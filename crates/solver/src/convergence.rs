@@ -1,7 +1,7 @@
 //! How a solution was reached, and how far it may still be off.
 
 use crate::diagnosis::is_falling;
-use crate::{Energy, Method};
+use crate::{Method, Power};
 use serde::{Deserialize, Serialize};
 
 /// The course of an iteration. Norms are area-weighted L2 norms over patches; of the channels of
@@ -25,8 +25,8 @@ pub struct Convergence {
     pub error: Option<f64>,
     /// The factor by which Gauss-Seidel overdid its last changes.
     pub relaxation: Option<f64>,
-    /// The power balance of each light.
-    pub energies: Vec<Energy>,
+    /// What each light emits, and what of it is absorbed.
+    pub powers: Vec<Power>,
 }
 
 impl Convergence {

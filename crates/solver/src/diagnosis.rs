@@ -1,7 +1,6 @@
 //! Why a system has no solution, and where.
 
 use crate::power_iteration::spectral_radius;
-use crate::problem::ratio;
 use crate::{Rgb, System};
 
 /// Why there is no solution.
@@ -27,6 +26,9 @@ pub enum SolveError {
         /// The relative residual.
         residual: f64,
     },
+    /// Gauss-Seidel was asked for, and these form factors have no rows that it could go through.
+    #[error("these form factors are not kept by rows, which Gauss-Seidel needs")]
+    NoRows,
     /// A number in the input is NaN or infinite.
     #[error("patch {patch} has a form factor, emission or reflectance that is not finite")]
     NotFinite {
@@ -83,11 +85,10 @@ pub(crate) fn check_spectral_radius(system: &System<'_>) -> Result<(), SolveErro
     if spectral_radius < 1.0 - RADIUS_ERROR {
         return Ok(());
     }
-    let total = system.total_area();
-    let sums = system.exchange.row_sums();
+    let sums = system.row_sums();
     let reflected = |i: usize| {
         let strongest = system.reflectance[i].into_iter().fold(0.0, f64::max);
-        ratio(strongest * sums[i] * total, system.visible_area(i))
+        strongest * sums[i]
     };
     let mut worst_patches: Vec<usize> = (0..system.size()).collect();
     worst_patches.sort_by(|&a, &b| reflected(b).total_cmp(&reflected(a)));
@@ -137,7 +138,7 @@ pub fn check_radiosities<'a>(
 
 /// Form factors: a pass of its own, so only where a result is no number.
 pub(crate) fn check_numbers(system: &System<'_>) -> Result<(), SolveError> {
-    let sums = system.exchange.row_sums();
+    let sums = system.row_sums();
     first(system, |i| !sums[i].is_finite())
 }
 

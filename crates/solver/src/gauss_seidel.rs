@@ -4,7 +4,7 @@
 //! (Cohen & Wallace 1993, section 5.3.2):
 //!
 //! ```text
-//! x_i <- (1 - omega) x_i + omega (E_i + gain_i (sum_{j<i} S_ij x_j + sum_{j>i} S_ij x_j))
+//! x_i <- (1 - omega) x_i + omega (E_i + rho_i (sum_{j<i} F_ij x_j + sum_{j>i} F_ij x_j))
 //! ```
 //!
 //! with `omega = 1`. The first sum has this sweep's values, the second the last sweep's, so it is
@@ -25,11 +25,12 @@
 //! observed `q` tells `r`; and with greater `omega`, `q` falls until it meets `omega - 1`, below
 //! which it does not come. Rooms turn out to be alike enough.
 
+use crate::Rgb;
 use crate::convergence::Progress;
 use crate::params::Relaxation;
-use crate::problem::{LOST, Problem, Values, joined, ratio, worst};
+use crate::problem::{LOST, Problem, Values, ratio, worst};
 use crate::solve::Iteration;
-use radiosity_matrix::Triple;
+use radiosity_matrix::{Sweep, Triple};
 use std::rc::Rc;
 
 /// After so many sweeps the rate is looked at: the first of them are plain, and few changes are
@@ -45,8 +46,9 @@ const STAGNANT_SWEEPS: usize = 4;
 
 pub(crate) struct GaussSeidel<'a> {
     problem: Rc<Problem<'a>>,
+    rows: &'a dyn Sweep,
     x: Values<f32>,
-    /// `sum_{j<i} S_ij x_j`, and `sum_{j>i} S_ij x_j`.
+    /// `sum_{j<i} F_ij x_j`, and `sum_{j>i} F_ij x_j`.
     sums: [Values<f64>; 2],
     factor: f64,
     /// That of the last sweep.
@@ -60,26 +62,42 @@ pub(crate) struct GaussSeidel<'a> {
 }
 
 impl<'a> GaussSeidel<'a> {
-    /// Begins at values whose sums are known.
+    /// Begins at the emission, of which one pass finds the sums.
     pub(crate) fn new(
         problem: Rc<Problem<'a>>,
-        (x, sums): (Values<f32>, [Values<f64>; 2]),
+        rows: &'a dyn Sweep,
         relaxation: Relaxation,
     ) -> GaussSeidel<'a> {
+        let mut x = problem.emission.clone();
+        let mut above = Values::with_capacity(x.len());
+        let below = rows.sweep(&mut x, problem.lights(), &mut |_, sums, _| {
+            above.extend_from_slice(sums);
+        });
         let (factor, is_automatic) = match relaxation {
             Relaxation::Factor(factor) => (factor, false),
             Relaxation::Automatic => (1.0, true),
         };
         GaussSeidel {
             problem,
+            rows,
             x,
-            sums,
+            sums: [above, below],
             factor,
             used: factor,
             is_automatic,
             changes: Vec::new(),
             rate: None,
         }
+    }
+
+    /// What arrives where the values leave.
+    pub(crate) fn irradiance(&self) -> Values<f64> {
+        (0..self.x.len()).map(|k| self.irradiance_at(k)).collect()
+    }
+
+    fn irradiance_at(&self, k: usize) -> Rgb {
+        let [above, below] = &self.sums;
+        std::array::from_fn(|c| above[k][c] + below[k][c])
     }
 
     /// Goes through all rows; keeps the norm of the change.
@@ -91,7 +109,7 @@ impl<'a> GaussSeidel<'a> {
         let mut norms = vec![(0.0, 0.0); lights];
         let mut update = |i: usize, sums: &[Triple<f64>], x: &mut [Triple<f32>]| {
             let first = i * lights;
-            let (area, gain) = (problem.areas[i], &problem.gain[i]);
+            let (area, rho) = (problem.areas[i], &problem.reflectance[i]);
             for (k, (x, norm)) in x.iter_mut().zip(&mut norms).enumerate() {
                 let (above, below) = (&mut above[first + k], &below[first + k]);
                 let emission = &problem.emission[first + k];
@@ -99,7 +117,7 @@ impl<'a> GaussSeidel<'a> {
                 for c in 0..3 {
                     let old = f64::from(x[c]);
                     let sum = above[c] + below[c];
-                    let wanted = f64::from(emission[c]) + gain[c] * sum;
+                    let wanted = f64::from(emission[c]) + rho[c] * sum;
                     x[c] = (old + factor * (wanted - old)) as f32;
                     let new = f64::from(x[c]);
                     norm.0 += area * (new - old) * (new - old);
@@ -107,7 +125,7 @@ impl<'a> GaussSeidel<'a> {
                 }
             }
         };
-        let new = problem.exchange.sweep(&mut self.x, lights, &mut update);
+        let new = self.rows.sweep(&mut self.x, lights, &mut update);
         self.sums[1] = new;
         let changes = norms
             .iter()
@@ -117,11 +135,8 @@ impl<'a> GaussSeidel<'a> {
     }
 
     fn residual(&self) -> f64 {
-        let at = |k: usize| {
-            self.problem
-                .residual_at(k, &joined(&self.sums, k), &self.x[k])
-        };
-        self.problem.relative(at)
+        let problem = &self.problem;
+        problem.relative(|k| problem.residual_at(k, &self.irradiance_at(k), &self.x[k]))
     }
 
     /// Over the last two changes, unless they are roundings.
@@ -202,7 +217,7 @@ impl Iteration for GaussSeidel<'_> {
     }
 
     fn finish(self: Box<Self>) -> (Values<f32>, Values<f64>) {
-        let sums = (0..self.x.len()).map(|k| joined(&self.sums, k)).collect();
-        (self.x, sums)
+        let irradiance = self.irradiance();
+        (self.x, irradiance)
     }
 }

@@ -4,14 +4,14 @@
 //! 1993, eq. 3.19), all quantities radiant exitances in W/m^2:
 //!
 //! ```text
-//! B_i = E_i + rho_i sum_j F_ij B_j ,   F_ij = S_ij / A_i
+//! B_i = E_i + rho_i sum_j F_ij B_j
 //! ```
 //!
 //! It is linear in the emission, so it is solved for each light by itself, all in the same passes
 //! over the matrix, and a lamp that is dimmed afterwards needs no new solution
 //! ([`relit`]). Each method is one file: [`Method::GaussSeidel`], with over-relaxation,
-//! and [`Method::ConjugateGradients`]; all share the pass
-//! ([`radiosity_matrix::SymmetricMatrix::sweep`]) and the report ([`Convergence`]).
+//! and [`Method::ConjugateGradients`]; all share the operator
+//! ([`radiosity_matrix::Exchange`]) and the report ([`Convergence`]).
 //!
 //! This crate knows nothing of geometry, names or files: errors carry patch indices.
 
@@ -19,9 +19,9 @@ mod channel;
 mod conjugate_gradients;
 mod convergence;
 mod diagnosis;
-mod energy;
 mod gauss_seidel;
 mod params;
+mod power;
 mod power_iteration;
 mod problem;
 mod solution;
@@ -33,14 +33,14 @@ mod tests;
 
 pub use convergence::Convergence;
 pub use diagnosis::{SolveError, check_radiosities};
-pub use energy::Energy;
 pub use params::{Method, Params, Relaxation};
+pub use power::Power;
 pub use solution::{Solution, relit};
 pub use solve::{Solver, solve};
 pub use system::System;
 
 /// Raise it whenever the same input would give another solution: it is part of its key.
-pub const VERSION: u32 = 8;
+pub const VERSION: u32 = 9;
 
 /// Red, green, blue.
 pub type Rgb = [f64; 3];

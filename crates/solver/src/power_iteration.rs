@@ -1,6 +1,5 @@
 //! The spectral radius of `rho F`: the factor by which light grows per bounce in the long run.
 
-use crate::problem::ratio;
 use crate::{Rgb, System};
 use radiosity_matrix::Triple;
 
@@ -19,7 +18,7 @@ pub(crate) fn spectral_radius(system: &System<'_>) -> f64 {
     let mut growth: Rgb = [0.0; 3];
     for _ in 0..MAX_ITERATIONS {
         let before = norms(system, &x);
-        x = averaged(system, x);
+        x = averaged(system, &x);
         let after = norms(system, &x);
         for x in &mut x {
             *x = std::array::from_fn(|c| (f64::from(x[c]) / after[c]) as f32);
@@ -35,16 +34,11 @@ pub(crate) fn spectral_radius(system: &System<'_>) -> f64 {
 }
 
 /// `(x + rho F x) / 2`.
-fn averaged(system: &System<'_>, mut x: Vec<Triple<f32>>) -> Vec<Triple<f32>> {
-    let total = system.total_area();
-    let mut above = Vec::with_capacity(x.len());
-    let below = system
-        .exchange
-        .sweep(&mut x, 1, &mut |_, sums, _| above.extend_from_slice(sums));
+fn averaged(system: &System<'_>, x: &[Triple<f32>]) -> Vec<Triple<f32>> {
+    let arrives = system.exchange.product(x, 1);
     let at = |i: usize| {
-        let gain = system.reflectance[i].map(|rho| ratio(rho * total, system.visible_area(i)));
-        let sum = |c: usize| above[i][c] + below[i][c];
-        std::array::from_fn(|c| (0.5 * (f64::from(x[i][c]) + gain[c] * sum(c))) as f32)
+        let rho = &system.reflectance[i];
+        std::array::from_fn(|c| (0.5 * (f64::from(x[i][c]) + rho[c] * arrives[i][c])) as f32)
     };
     (0..x.len()).map(at).collect()
 }
@@ -52,7 +46,7 @@ fn averaged(system: &System<'_>, mut x: Vec<Triple<f32>>) -> Vec<Triple<f32>> {
 /// The area-weighted L2 norm of each channel.
 fn norms(system: &System<'_>, x: &[Triple<f32>]) -> Rgb {
     let square = |c: usize| {
-        let squares = x.iter().zip(system.areas);
+        let squares = x.iter().zip(system.areas());
         squares
             .map(|(x, area)| area * f64::from(x[c]).powi(2))
             .sum::<f64>()

@@ -1,7 +1,7 @@
 //! A system as the methods see it: lights side by side, in units in which numbers are ordinary.
 
 use crate::{Rgb, System};
-use radiosity_matrix::{SymmetricMatrix, Triple};
+use radiosity_matrix::{Exchange, Triple};
 
 /// Values of all lights at all patches: those of light `k` at patch `i` are at
 /// `i * lights + k`.
@@ -10,18 +10,18 @@ pub(crate) type Values<T> = Vec<Triple<T>>;
 /// Relative changes below this may change nothing, in single precision.
 pub(crate) const LOST: f64 = 1.0 / (1 << 24) as f64;
 
-/// `x_i = E_i + gain_i sum_j S_ij x_j`, for each channel of each light in units of its own largest
+/// `x_i = E_i + rho_i sum_j F_ij x_j`, for each channel of each light in units of its own largest
 /// emission: channels know nothing of each other, and no square overflows or vanishes, however
 /// bright or faint one of them is.
 pub(crate) struct Problem<'a> {
-    pub(crate) exchange: &'a SymmetricMatrix,
+    pub(crate) exchange: &'a dyn Exchange,
     /// Areas that exchange light, relative to the total of all.
     pub(crate) areas: Vec<f64>,
-    /// `rho_i / A_i`, with those areas, per patch.
-    pub(crate) gain: Vec<Rgb>,
+    /// `rho_i` per patch; 0 where no area exchanges light.
+    pub(crate) reflectance: Vec<Rgb>,
     /// Rounded to what radiosities can be, so that black patches have no residual, and those that
     /// reflect next to nothing none but what they reflect: conjugate gradients weight residuals by
-    /// `1 / gain`.
+    /// `1 / rho`.
     pub(crate) emission: Values<f32>,
     /// What the numbers of each light are multiples of, in W/m^2.
     pub(crate) units: Vec<Rgb>,
@@ -31,11 +31,11 @@ pub(crate) struct Problem<'a> {
 
 impl<'a> Problem<'a> {
     pub(crate) fn new(system: &System<'a>) -> Problem<'a> {
-        let total = system.total_area();
-        let area = |i: usize| system.visible_area(i) / total;
-        let areas: Vec<f64> = (0..system.size()).map(area).collect();
-        let gain = |(rho, &area): (&Rgb, &f64)| rho.map(|rho| ratio(rho, area));
-        let gain = system.reflectance.iter().zip(&areas).map(gain).collect();
+        let total: f64 = system.areas().iter().sum();
+        let areas: Vec<f64> = system.areas().iter().map(|area| area / total).collect();
+        let reflectance = system.reflectance.iter().zip(&areas);
+        let reflectance = reflectance.map(|(rho, &area)| if area > 0.0 { *rho } else { [0.0; 3] });
+        let reflectance = reflectance.collect();
         let units: Vec<Rgb> = system.lights.iter().map(|light| units_of(light)).collect();
         let at = |i: usize| {
             let lights = system.lights.iter().zip(&units);
@@ -45,7 +45,7 @@ impl<'a> Problem<'a> {
         let mut problem = Problem {
             exchange: system.exchange,
             areas,
-            gain,
+            reflectance,
             emission,
             units,
             norms: Vec::new(),
@@ -87,13 +87,13 @@ impl<'a> Problem<'a> {
         worst(self.ratios(values))
     }
 
-    /// What is reflected where sums arrive.
-    pub(crate) fn reflected(&self, sums: &[Values<f64>; 2]) -> Values<f32> {
-        let at = |k: usize| -> Triple<f32> {
-            let (sum, gain) = (joined(sums, k), &self.gain[k / self.lights()]);
-            std::array::from_fn(|c| (gain[c] * sum[c]) as f32)
+    /// What is reflected of what arrives.
+    pub(crate) fn reflected(&self, irradiance: &Values<f64>) -> Values<f32> {
+        let at = |(k, arrives): (usize, &Rgb)| -> Triple<f32> {
+            let rho = &self.reflectance[k / self.lights()];
+            std::array::from_fn(|c| (rho[c] * arrives[c]) as f32)
         };
-        (0..self.emission.len()).map(at).collect()
+        irradiance.iter().enumerate().map(at).collect()
     }
 
     /// Radiosities in W/m^2, light by light.
@@ -113,27 +113,17 @@ impl<'a> Problem<'a> {
         self.norms.as_flattened().iter().all(|&norm| norm == 0.0)
     }
 
-    /// `E_i + gain_i sum_j S_ij x_j - x_i` at one index, of which the sum is given.
-    pub(crate) fn residual_at(&self, k: usize, sum: &Rgb, x: &Triple<f32>) -> Rgb {
-        let (emission, gain) = (&self.emission[k], &self.gain[k / self.lights()]);
+    /// `E_i + rho_i H_i - x_i` at one index, where `H` arrives.
+    pub(crate) fn residual_at(&self, k: usize, irradiance: &Rgb, x: &Triple<f32>) -> Rgb {
+        let (emission, rho) = (&self.emission[k], &self.reflectance[k / self.lights()]);
         let [emission, x] = [emission, x].map(|values| values.map(f64::from));
-        std::array::from_fn(|c| emission[c] + gain[c] * sum[c] - x[c])
+        std::array::from_fn(|c| emission[c] + rho[c] * irradiance[c] - x[c])
     }
 
-    /// `sum_j S_ij x_j`, in two parts: over `j < i` and over `j > i`.
-    pub(crate) fn sums(&self, x: &mut [Triple<f32>]) -> [Values<f64>; 2] {
-        let lights = self.lights();
-        let mut above = Values::with_capacity(x.len());
-        let below = self.exchange.sweep(x, lights, &mut |_, sums, _| {
-            above.extend_from_slice(sums);
-        });
-        [above, below]
+    /// `H_i = sum_j F_ij x_j`: what arrives where `x` leaves.
+    pub(crate) fn irradiance(&self, x: &[Triple<f32>]) -> Values<f64> {
+        self.exchange.product(x, self.lights())
     }
-}
-
-/// A sum of which both parts are known.
-pub(crate) fn joined([above, below]: &[Values<f64>; 2], k: usize) -> Rgb {
-    std::array::from_fn(|c| above[k][c] + below[k][c])
 }
 
 /// A part relative to the whole, of which nothing is worth nothing.

@@ -1,6 +1,6 @@
 //! The radiosities.
 
-use crate::{Convergence, Energy, Rgb};
+use crate::{Convergence, Rgb};
 
 /// The radiosities that each light makes, and how they were reached.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,14 +34,4 @@ pub fn relit(lights: &[Vec<[f32; 3]>], dimming: &[Rgb]) -> Vec<[f32; 3]> {
         }
     }
     sum
-}
-
-impl Solution {
-    /// The power balance with each light dimmed by a factor per channel.
-    pub fn energy(&self, dimming: &[Rgb]) -> Energy {
-        let lights = self.report.energies.iter().zip(dimming);
-        lights.fold(Energy::default(), |sum, (energy, factor)| {
-            sum.plus(energy, factor)
-        })
-    }
 }

@@ -6,7 +6,7 @@ use crate::diagnosis::{self, SolveError};
 use crate::gauss_seidel::GaussSeidel;
 use crate::params::{Method, Params};
 use crate::problem::{Problem, Values};
-use crate::{Convergence, Energy, Solution, System};
+use crate::{Convergence, Power, Solution, System};
 use std::rc::Rc;
 
 /// A method on its way.
@@ -17,21 +17,23 @@ pub(crate) trait Iteration {
     /// See [`Convergence::relaxation`].
     fn relaxation(&self) -> Option<f64>;
 
-    /// The values, and their `sum_j S_ij x_j`.
+    /// The values, and what arrives where they leave.
     fn finish(self: Box<Self>) -> (Values<f32>, Values<f64>);
 }
 
 /// Solves the system for all lights, from `B = E` on.
 ///
 /// ```
-/// use radiosity_matrix::SymmetricMatrix;
+/// use radiosity_matrix::{DenseExchange, SymmetricMatrix};
 /// use radiosity_solver::{Params, System, solve};
 ///
-/// // Two patches of area 1 that see nothing but each other: S_10 = A F / (total area) = 1/2.
-/// let exchange = SymmetricMatrix::new(2, vec![0.5])?;
-/// let lamp = vec![[1.0; 3], [0.0; 3]];
-/// let reflectance = [[0.0; 3], [0.5; 3]];
-/// let system = System::new(&exchange, &[1.0, 1.0], &reflectance, std::slice::from_ref(&lamp));
+/// // Two patches of area 1 that see nothing but each other: A F / (total area) = 1/2.
+/// let matrix = SymmetricMatrix::new(2, vec![0.5])?;
+/// let system = System {
+///     exchange: &DenseExchange::new(matrix, vec![1.0, 1.0]),
+///     reflectance: &[[0.0; 3], [0.5; 3]],
+///     lights: &[vec![[1.0; 3], [0.0; 3]]],
+/// };
 /// let solution = solve(&system, &Params::default())?;
 /// assert_eq!(solution.lights[0], [[1.0; 3], [0.5; 3]]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -65,16 +67,21 @@ impl<'a> Solver<'a> {
     pub fn new(system: &'a System<'a>, params: &Params) -> Result<Solver<'a>, SolveError> {
         diagnosis::check_materials(system)?;
         let problem = Rc::new(Problem::new(system));
-        let mut x = problem.emission.clone();
-        let sums = problem.sums(&mut x);
-        let direct = problem.to_lights(&problem.reflected(&sums));
-        let (start, shared) = ((x, sums), Rc::clone(&problem));
-        let iteration: Box<dyn Iteration + 'a> = match params.method {
-            Method::GaussSeidel => Box::new(GaussSeidel::new(shared, start, params.relaxation)),
+        let shared = Rc::clone(&problem);
+        let (iteration, irradiance): (Box<dyn Iteration + 'a>, Values<f64>) = match params.method {
+            Method::GaussSeidel => {
+                let rows = system.exchange.rows().ok_or(SolveError::NoRows)?;
+                let start = GaussSeidel::new(shared, rows, params.relaxation);
+                let irradiance = start.irradiance();
+                (Box::new(start), irradiance)
+            }
             Method::ConjugateGradients => {
-                Box::new(ConjugateGradients::new(shared, start, params.residual))
+                let irradiance = problem.irradiance(&problem.emission);
+                let start = ConjugateGradients::new(shared, &irradiance, params.residual);
+                (Box::new(start), irradiance)
             }
         };
+        let direct = problem.to_lights(&problem.reflected(&irradiance));
         Ok(Solver {
             system,
             params: *params,
@@ -119,8 +126,8 @@ impl<'a> Solver<'a> {
             diagnosis::check_spectral_radius(system)?;
         }
         let relaxation = self.iteration.relaxation();
-        let (x, sums) = self.iteration.finish();
-        let residual = problem.relative(|k| problem.residual_at(k, &sums[k], &x[k]));
+        let (x, irradiance) = self.iteration.finish();
+        let residual = problem.relative(|k| problem.residual_at(k, &irradiance[k], &x[k]));
         let lights = problem.to_lights(&x);
         diagnosis::check_radiosities(lights.iter().map(Vec::as_slice))?;
         if !self.converged && residual > diagnosis::WORTHLESS {
@@ -136,7 +143,7 @@ impl<'a> Solver<'a> {
                 residuals: self.residuals,
                 error: self.error,
                 relaxation,
-                energies: Energy::of_lights(system, &problem, &x, &sums),
+                powers: Power::of_lights(system, &problem, &irradiance),
             },
             lights,
             direct: self.direct,

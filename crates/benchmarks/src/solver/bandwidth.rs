@@ -14,8 +14,8 @@ const FOUR_LIGHTS: f64 = 1.3;
 /// Passes over the matrix against the bandwidth of memory. Both are timed in turn, since memory is
 /// not always as fast: the shares are the middle ones of all rounds.
 pub(super) fn passes(made: &FormFactors) -> Vec<Figure> {
-    let patches = made.exchange.size();
-    let mapped = &made.exchange;
+    let patches = made.areas.len();
+    let mapped = made.exchange.matrix();
     let in_memory = SymmetricMatrix::new(patches, mapped.values().to_vec());
     let in_memory = in_memory.expect("they are as many as before");
     let seconds = |matrix: &SymmetricMatrix, lights: usize| {

@@ -1,13 +1,13 @@
 //! Whoever wrote a file, and whatever is in it, it is described or refused.
 
 use super::lines;
-use radiosity::RowSummary;
 use radiosity::cache::{Id, Key, Miss, Store, open};
 use radiosity::facts::{FORM_FACTORS, FactorFacts, SOLUTION, SolutionFacts};
 use radiosity::form_factors::{Classes, Estimator, FormFactors, RowFacts};
 use radiosity::inspect::Inspection;
-use radiosity::matrix::SymmetricMatrix;
-use radiosity::solver::{Convergence, Energy, Method};
+use radiosity::matrix::{DenseExchange, SymmetricMatrix};
+use radiosity::solver::{Convergence, Method, Power};
+use radiosity::{Energy, RowSummary};
 use serde::Serialize;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -23,6 +23,7 @@ fn factor_facts() -> FactorFacts {
         patches_of_surfaces: vec![2, 3],
         exported_as: vec![4, 3, 2, 1, 0],
         areas: vec![1.0; PATCHES],
+        elements: vec![1.0; PATCHES],
         rows: vec![RowFacts::default(); PATCHES],
         classes: Some(Classes::default()),
         closure: None,
@@ -38,9 +39,11 @@ fn form_factors() -> FormFactors {
         ..
     } = factor_facts();
     FormFactors {
-        total_area: areas.iter().sum(),
+        exchange: DenseExchange::new(
+            SymmetricMatrix::new(PATCHES, vec![0.0; PAIRS]).unwrap(),
+            areas.clone(),
+        ),
         areas,
-        exchange: SymmetricMatrix::new(PATCHES, vec![0.0; PAIRS]).unwrap(),
         rows,
         classes,
         closure,
@@ -57,10 +60,12 @@ fn solution_facts() -> SolutionFacts {
             residuals: vec![1.0, 1e-7],
             error: None,
             relaxation: None,
-            energies: vec![Energy::default()],
+            powers: vec![Power::default()],
         },
         rows: RowSummary::of(&form_factors(), |_| 0),
         lights: vec!["lamp".to_owned()],
+        energies: vec![Energy::default()],
+        elements: vec![1.0; PATCHES],
         visible: vec![1.0; PATCHES],
     }
 }

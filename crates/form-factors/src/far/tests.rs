@@ -97,7 +97,7 @@ fn lanes_are_plain_sums() {
             let rule = (0..RULES).find(will_do).filter(|_| face_whole(&i, j));
             by_rule[rule.unwrap_or(RULES)] += 1;
             match (rule, found[lane]) {
-                (Some(rule), Some(Exchange { value, .. })) => {
+                (Some(rule), Some(PairEstimate { value, .. })) => {
                     let plain = all_pairs(&i, j, rule);
                     // As many roundings as there are pairs of points, and those of a pair.
                     assert!((value - plain).abs() <= 1e-13 * plain, "{value} {plain}");

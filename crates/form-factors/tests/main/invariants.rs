@@ -54,7 +54,7 @@ fn thread_counts_leave_no_trace() {
     for estimator in [Estimator::Regular { points: 2 }, monte_carlo, accurate] {
         let with = |threads| {
             let found = on_threads(threads, || run(&mesh, estimator));
-            (found.exchange.values().to_vec(), found.rows)
+            (found.exchange.matrix().values().to_vec(), found.rows)
         };
         let one = with(1);
         assert_eq!(one, with(2));
@@ -92,7 +92,7 @@ proptest! {
         let there: Vec<Shape> = cluttered().iter().map(move_shape).collect();
         let (here, there) = (cut(cluttered(), 2), cut(there, 2));
         let (a, b) = (regular(&here, 2), regular(&there, 2));
-        for (x, y) in a.exchange.values().iter().zip(b.exchange.values()) {
+        for (x, y) in a.exchange.matrix().values().iter().zip(b.exchange.matrix().values()) {
             let rounding = SINGLE * f64::from(x.max(*y)) + 1e-9;
             prop_assert!(f64::from((x - y).abs()) <= rounding, "{} {}", x, y);
         }

@@ -39,7 +39,7 @@ fn random_numbers_are_those_of_this_version() {
         square([0.0; 2], 1.0, 0.0, Facing::Up),
         square([0.0; 2], 1.0, 1.0, Facing::Down),
     ]);
-    let value = |seed| monte_carlo(&mesh, [3, 9], seed).exchange.get(0, 1);
+    let value = |seed| monte_carlo(&mesh, [3, 9], seed).exchange.matrix().get(0, 1);
     assert_eq!(
         [0, 1, u64::MAX].map(value),
         GOLDEN,
@@ -54,7 +54,7 @@ fn seeds_matter() {
     let mesh = cut(cluttered(), 2);
     let values = |seed| {
         let found = monte_carlo(&mesh, [2, 4], seed);
-        found.exchange.values().to_vec()
+        found.exchange.matrix().values().to_vec()
     };
     assert_eq!(values(1), values(1));
     assert_ne!(values(1), values(2));

@@ -47,7 +47,13 @@ fn only_fronts_exchange() {
             square([0.0; 2], 1.0, 1.0, above),
         ];
         let found = regular(&cut(pair, 2), 2);
-        found.exchange.values().iter().copied().fold(0.0, f32::max)
+        found
+            .exchange
+            .matrix()
+            .values()
+            .iter()
+            .copied()
+            .fold(0.0, f32::max)
     };
     assert!(most(Up, Down) > 0.0);
     assert_eq!([most(Up, Up), most(Down, Up), most(Down, Down)], [0.0; 3]);

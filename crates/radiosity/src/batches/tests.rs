@@ -70,7 +70,10 @@ fn batches_are_what_is_estimated_at_once() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let pool = pool.build().unwrap();
         let (at_once, tally) = pool.install(|| estimate_in_memory(&estimation, &Silent));
-        assert!(at_once == whole.exchange.values(), "{threads} threads");
+        assert!(
+            at_once == whole.exchange.matrix().values(),
+            "{threads} threads"
+        );
         let exchange = radiosity_matrix::SymmetricMatrix::new(mesh.patches.len(), at_once);
         assert_eq!(
             estimation.complete(exchange.unwrap(), &tally).rows,
@@ -102,7 +105,10 @@ fn batches_are_what_is_estimated_at_once() {
         assert!(parts > 10, "{parts}");
         assert!(has_counted_begun_rows);
         assert_eq!(finished.pairs as usize, values.len());
-        assert!(values == whole.exchange.values(), "{threads} threads");
+        assert!(
+            values == whole.exchange.matrix().values(),
+            "{threads} threads"
+        );
         let exchange = radiosity_matrix::SymmetricMatrix::new(mesh.patches.len(), values);
         let completed = estimation.complete(exchange.unwrap(), &finished.tally);
         assert_eq!(completed.rows, whole.rows);

@@ -3,6 +3,7 @@
 use super::factors::Factors;
 use super::light::PatchLight;
 use super::solution::Solved;
+use crate::energy::Energy;
 use crate::error::Error;
 use radiosity_params::OutOfRange;
 use radiosity_scene::{Light, MOST_DIMMING, Scene};
@@ -95,10 +96,10 @@ impl Solved<'_> {
             emission: factors.emission(&dimming),
             radiosity: sum(&self.solution.lights),
             direct: sum(&self.solution.direct),
+            elements: self.elements.clone(),
             visible: self.visible.clone(),
-            energy: self.solution.energy(&dimming),
+            energy: Energy::sum(&self.energies, &dimming),
         };
-        let light = PatchLight::of_elements(factors.params.mode, light);
         let checked = solver::check_radiosities([&light.radiosity[..]]);
         checked.map_err(|error| factors.of_solver(&error))?;
         Ok(light)

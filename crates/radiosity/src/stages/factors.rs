@@ -13,7 +13,7 @@ use crate::row_columns::is_finite;
 use crate::rows::RowSummary;
 use radiosity_cache::{Id, Key, Miss, Store};
 use radiosity_form_factors::{self as form_factors, Estimation, FormFactors, Mode, Params};
-use radiosity_matrix::SymmetricMatrix;
+use radiosity_matrix::{DenseExchange, SymmetricMatrix};
 use radiosity_params::Parameters;
 use radiosity_solver::SolveError;
 use std::ops::DerefMut;
@@ -157,7 +157,7 @@ impl<'a> Factors<'a> {
         };
         let (form_factors, mut origin) = obtain(self.patches.context, id, sources, recipe)?;
         self.check_finite(&form_factors)?;
-        origin.bytes = 4 * form_factors.exchange.values().len() as u64;
+        origin.bytes = 4 * form_factors.exchange.matrix().values().len() as u64;
         origin.seconds = start.elapsed().as_secs_f64();
         let surface = |patch: usize| self.patches.mesh.patches[patch].surface.index();
         let rows = RowSummary::of(&form_factors, surface);
@@ -194,11 +194,10 @@ impl<'a> Factors<'a> {
     ) -> Option<FormFactors> {
         let patches = self.patches.mesh.patches.len();
         let is_sound = facts.rows.len() == patches && facts.are_sound(values.as_ref().len());
-        let exchange = SymmetricMatrix::new(patches, values).ok()?;
-        is_sound.then_some(FormFactors {
-            total_area: facts.areas.iter().sum(),
+        let matrix = SymmetricMatrix::new(patches, values).ok()?;
+        is_sound.then(|| FormFactors {
+            exchange: DenseExchange::new(matrix, facts.areas.clone()).of_parts(facts.elements),
             areas: facts.areas,
-            exchange,
             rows: facts.rows,
             classes: facts.classes,
             closure: facts.closure,

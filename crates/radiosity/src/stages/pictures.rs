@@ -109,17 +109,14 @@ pub fn show(factors: &Factors<'_>, light: &PatchLight, quantity: Quantity) -> Re
             direct_gain: nothing(),
             ..all
         },
-        Quantity::Irradiance => {
-            let of_elements = light.radiosity_of_elements(factors.params.mode);
-            Shown {
-                value: irradiance(made(), &of_elements, &all.visible),
-                direct: irradiance(made(), &all.sources, &all.visible),
-                emission: nothing(),
-                direct_gain: vec![[1.0; 3]; patches],
-                gathered_gain: vec![[1.0; 3]; patches],
-                ..all
-            }
-        }
+        Quantity::Irradiance => Shown {
+            value: irradiance(made(), &light.radiosity),
+            direct: irradiance(made(), &all.sources),
+            emission: nothing(),
+            direct_gain: vec![[1.0; 3]; patches],
+            gathered_gain: vec![[1.0; 3]; patches],
+            ..all
+        },
         Quantity::Error => {
             let errors = made().rows.iter().map(|row| row.error);
             let errors: Option<Vec<f64>> = errors.collect();

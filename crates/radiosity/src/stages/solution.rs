@@ -1,14 +1,13 @@
 //! Stage 3: the radiosities that each light makes, and their sum.
 
 use super::factors::Factors;
-use super::light::{elements, visible_shares};
 use crate::artifact::{Origin, Recipe, Sources, obtain, usable};
+use crate::energy::Energy;
 use crate::error::Error;
 use crate::facts::{self, SOLUTION, SolutionFacts};
 use crate::observer::Stage;
 use crate::rows::RowSummary;
 use radiosity_cache::{Id, Key, Miss, Store};
-use radiosity_form_factors::RowFacts;
 use radiosity_params::Parameters;
 use radiosity_solver::{self as solver, Params, Solution, Solver, System};
 use std::time::Instant;
@@ -26,7 +25,11 @@ pub struct Solved<'a> {
     /// Where those came from.
     pub form_factors: Origin,
     pub(super) factors: &'a Factors<'a>,
-    /// The share of each patch that can be seen.
+    /// Of each light.
+    pub(super) energies: Vec<Energy>,
+    /// See [`PatchLight`](super::light::PatchLight).
+    pub(super) elements: Vec<f32>,
+    /// See there.
     pub(super) visible: Vec<f32>,
 }
 
@@ -61,7 +64,9 @@ fn solve_from<'a>(
                 report: solution.report.clone(),
                 rows: made.rows.clone(),
                 lights: factors.light_names(),
-                visible: visible_shares(&made.form_factors.rows),
+                energies: Energy::of_lights(&made.form_factors, &solution),
+                elements: made.form_factors.element_shares(),
+                visible: made.form_factors.visible_shares(),
             };
             let values = [solution.lights.concat(), solution.direct.concat()].concat();
             let write = |store: &Store| {
@@ -70,10 +75,10 @@ fn solve_from<'a>(
             };
             let is_cached = store.is_some_and(write);
             made_from = Some(made.origin.clone());
-            Ok(((solution, facts.rows, facts.visible), is_cached))
+            Ok(((solution, facts), is_cached))
         },
     };
-    let ((solution, rows, visible), mut origin) = obtain(context, &id, sources, recipe)?;
+    let ((solution, facts), mut origin) = obtain(context, &id, sources, recipe)?;
     origin.bytes = 24 * (solution.lights.len() * factors.patches.mesh.patches.len()) as u64;
     origin.seconds = start.elapsed().as_secs_f64();
     let form_factors = made_from.unwrap_or_else(|| factors.untouched());
@@ -81,10 +86,12 @@ fn solve_from<'a>(
         solution,
         key: id.key,
         origin,
-        rows,
+        rows: facts.rows,
         form_factors,
         factors,
-        visible,
+        energies: facts.energies,
+        elements: facts.elements,
+        visible: facts.visible,
     })
 }
 
@@ -110,19 +117,10 @@ impl<'a> Factors<'a> {
     pub fn solution(&self, params: &Params) -> Result<Solution, Error> {
         let made = self.made()?;
         let made = &made.form_factors;
-        let share =
-            |share: fn(&RowFacts) -> f64| -> Vec<f64> { made.rows.iter().map(share).collect() };
-        let patches = self.patches;
         let system = System {
-            visible: elements(self.params.mode, &made.rows).into(),
-            backs: share(|row| row.backs).into(),
-            background: share(|row| row.background).into(),
-            ..System::new(
-                &made.exchange,
-                &made.areas,
-                &patches.reflectance,
-                &patches.lights,
-            )
+            exchange: &made.exchange,
+            reflectance: &self.patches.reflectance,
+            lights: &self.patches.lights,
         };
         self.observed(&system, params)
             .map_err(|error| self.of_solver(&error))
@@ -175,9 +173,9 @@ impl<'a> Factors<'a> {
         let solution = Solution {
             lights,
             direct,
-            report: facts.report,
+            report: facts.report.clone(),
         };
-        Ok((solution, facts.rows, facts.visible))
+        Ok((solution, facts))
     }
 
     fn solution_id(&self, params: &Params) -> Id<'a> {
@@ -193,8 +191,8 @@ impl<'a> Factors<'a> {
     }
 }
 
-/// A solution, the rows behind it, and the visible share of each patch.
-type Stored = (Solution, RowSummary, Vec<f32>);
+/// A solution, and what is stored beside it.
+type Stored = (Solution, SolutionFacts);
 /// Of each light, a value of each patch.
 type ByLight = Vec<Vec<[f32; 3]>>;
 

@@ -66,9 +66,9 @@ fn iterates_are_those_of_the_textbook_in_large_systems_too() {
         let random = (k as u32).wrapping_mul(2_654_435_761).rotate_left(16) as f32;
         random / u32::MAX as f32 / (size * size) as f32
     };
-    let exchange = (0..packed_len(size)).map(entry).collect::<Vec<f32>>();
-    let mut case = Case::uniform_enclosure(size, [0.0; 3], [0.9, 0.5, 0.1]);
-    case.exchange = SymmetricMatrix::new(size, exchange).unwrap();
+    let values = (0..packed_len(size)).map(entry).collect();
+    let case = Case::uniform_enclosure(size, [0.0; 3], [0.9, 0.5, 0.1]);
+    let mut case = case.with_values(values);
     case.lights[0][7] = [1.0, 2.0, 3.0];
     case.lights[0][1500] = [3.0, 2.0, 1.0];
     // Sums are in single precision over 64 numbers in a lane; rows sum to a half.

@@ -8,18 +8,13 @@ mod trouble;
 
 use crate::*;
 use proptest::prelude::*;
-use radiosity_matrix::{SymmetricMatrix, packed_len};
+use radiosity_matrix::{DenseExchange, Exchange, SymmetricMatrix, packed_len};
 
 #[derive(Debug)]
 struct Case {
-    exchange: SymmetricMatrix,
-    areas: Vec<f64>,
-    visible: Vec<f64>,
+    exchange: DenseExchange,
     lights: Vec<Vec<Rgb>>,
     reflectance: Vec<Rgb>,
-    /// What rows miss to 1.
-    background: Vec<f64>,
-    backs: Vec<f64>,
 }
 
 /// A method, and how much Gauss-Seidel relaxes.
@@ -43,34 +38,29 @@ fn with((method, relaxation): Way) -> Params {
 
 impl Case {
     fn new(
-        exchange: SymmetricMatrix,
+        matrix: SymmetricMatrix,
         areas: Vec<f64>,
         lights: Vec<Vec<Rgb>>,
         reflectance: Vec<Rgb>,
     ) -> Case {
-        let total: f64 = areas.iter().sum();
-        let sums = exchange.row_sums().into_iter().zip(&areas);
         Case {
-            background: sums.map(|(sum, area)| 1.0 - sum * total / area).collect(),
-            backs: vec![0.0; areas.len()],
-            visible: vec![1.0; areas.len()],
-            exchange,
-            areas,
+            exchange: DenseExchange::new(matrix, areas),
             lights,
             reflectance,
         }
     }
 
-    /// With parts of patches hidden, which see nothing but backs.
-    fn covered(self, visible: Vec<f64>) -> Case {
-        let hidden: Vec<f64> = visible.iter().map(|visible| 1.0 - visible).collect();
-        let background = self.background.iter().zip(&hidden);
+    /// With other numbers `A_i F_ij`, in units of the total area.
+    fn with_values(self, values: Vec<f32>) -> Case {
+        let matrix = SymmetricMatrix::new(self.exchange.size(), values).unwrap();
         Case {
-            background: background.map(|(rest, hidden)| rest - hidden).collect(),
-            backs: hidden,
-            visible,
+            exchange: self.exchange.with_matrix(matrix),
             ..self
         }
+    }
+
+    fn values(&self) -> Vec<f32> {
+        self.exchange.matrix().values().to_vec()
     }
 
     /// A closed enclosure in which everything sees everything else equally.
@@ -87,12 +77,8 @@ impl Case {
     fn system(&self) -> System<'_> {
         System {
             exchange: &self.exchange,
-            areas: &self.areas,
-            visible: (&self.visible).into(),
             reflectance: &self.reflectance,
             lights: &self.lights,
-            backs: (&self.backs).into(),
-            background: (&self.background).into(),
         }
     }
 
@@ -113,12 +99,21 @@ fn random_case() -> impl Strategy<Value = Case> {
         let visible = prop::collection::vec(0.5f64..=1.0, size);
         (exchange, areas, visible, lights, reflectance).prop_map(
             move |(mut exchange, areas, visible, lights, reflectance)| {
-                // S_ij <= smallest visible area / (n - 1), in units of the total.
+                // A_i F_ij <= smallest visible area / (n - 1), in units of the total.
                 let total: f64 = areas.iter().sum();
                 let scale = (0.25 / total / (size - 1) as f64) as f32;
                 exchange.iter_mut().for_each(|s| *s *= scale);
-                let exchange = SymmetricMatrix::new(size, exchange).unwrap();
-                Case::new(exchange, areas, lights, reflectance).covered(visible)
+                let parts = areas
+                    .iter()
+                    .zip(&visible)
+                    .map(|(area, visible)| area * visible);
+                let parts = parts.collect();
+                let matrix = SymmetricMatrix::new(size, exchange).unwrap();
+                let case = Case::new(matrix, areas, lights, reflectance);
+                Case {
+                    exchange: case.exchange.of_parts(parts),
+                    ..case
+                }
             },
         )
     })
@@ -126,17 +121,15 @@ fn random_case() -> impl Strategy<Value = Case> {
 
 /// The irradiance at a patch, on full rows, in double precision.
 fn irradiance(case: &Case, i: usize, x: &[Rgb]) -> Rgb {
-    let total: f64 = case.areas.iter().sum();
-    let area = case.visible[i] * case.areas[i];
-    let factor = |j: usize| f64::from(case.exchange.get(i, j)) * total / area;
+    let factor = |j: usize| case.exchange.area(i, j) / case.exchange.areas()[i];
     std::array::from_fn(|c| (0..x.len()).map(|j| factor(j) * x[j][c]).sum())
 }
 
-/// The L2 norm, weighted by visible area.
+/// The L2 norm, weighted by area.
 fn norm(case: &Case, values: &[Rgb]) -> f64 {
-    let area = |i: usize| case.visible[i] * case.areas[i];
-    let square = |(i, v): (usize, &Rgb)| area(i) * v.iter().map(|c| c * c).sum::<f64>();
-    values.iter().enumerate().map(square).sum::<f64>().sqrt()
+    let areas = case.exchange.areas();
+    let square = |(area, v): (&f64, &Rgb)| area * v.iter().map(|c| c * c).sum::<f64>();
+    areas.iter().zip(values).map(square).sum::<f64>().sqrt()
 }
 
 /// One channel alone.

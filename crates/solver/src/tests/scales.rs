@@ -97,7 +97,7 @@ proptest! {
         case in random_case(),
         reflectance in prop::collection::vec(rgb(faint), 12),
     ) {
-        let size = case.areas.len();
+        let size = case.exchange.size();
         let case = Case { reflectance: reflectance[..size].to_vec(), ..case };
         let truth = exact(&case);
         for method in METHODS {
@@ -133,11 +133,11 @@ fn channels_that_have_converged_rest_for_long() {
 /// By the reflectance of the channel that converges last.
 fn check_resting_channels(largest: f64) {
     let (size, reflectance) = (100, [largest, 0.1, 1e-4]);
-    let mut case = Case::uniform_enclosure(size, [0.0; 3], reflectance);
+    let case = Case::uniform_enclosure(size, [0.0; 3], reflectance);
     let half = 0.5 / size as f32;
     let row = |i: usize| (0..i).map(move |j| if i - j == 1 { half } else { 0.0 });
     let values: Vec<f32> = (0..size).flat_map(row).collect();
-    case.exchange = SymmetricMatrix::new(size, values).unwrap();
+    let mut case = case.with_values(values);
     case.lights[0][7] = [1.0; 3];
     let truth = exact(&case);
     for method in METHODS {

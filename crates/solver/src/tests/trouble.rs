@@ -2,13 +2,14 @@
 
 use super::*;
 use crate::power_iteration::spectral_radius;
+use radiosity_matrix::{Sweep, Triple};
 
 #[test]
 fn a_system_that_makes_light_names_its_worst_patches() {
-    let mut case = Case::uniform_enclosure(5, [1.0; 3], [0.9; 3]);
-    let mut values = case.exchange.values().to_vec();
+    let case = Case::uniform_enclosure(5, [1.0; 3], [0.9; 3]);
+    let mut values = case.values();
     values[packed_len(3) + 1] *= 10.0;
-    case.exchange = SymmetricMatrix::new(5, values).unwrap();
+    let case = case.with_values(values);
     for method in METHODS {
         let error = solve(&case.system(), &with(method)).unwrap_err();
         let SolveError::Diverges {
@@ -47,19 +48,21 @@ fn rooms_that_absorb_nothing_have_no_solution() {
 /// A covered patch has no area, exchanges nothing, and has its emission for radiosity.
 #[test]
 fn covered_patches_are_left_alone() {
-    let mut case = Case::uniform_enclosure(5, [1.0; 3], [0.5; 3]);
-    let mut values = case.exchange.values().to_vec();
+    let case = Case::uniform_enclosure(5, [1.0; 3], [0.5; 3]);
+    let mut values = case.values();
     values[..packed_len(3)][packed_len(2)..].fill(0.0);
     values[packed_len(3) + 2] = 0.0;
     values[packed_len(4) + 2] = 0.0;
-    case.exchange = SymmetricMatrix::new(5, values).unwrap();
-    case.areas[2] = 0.0;
+    let mut case = case.with_values(values);
+    let mut areas = case.exchange.areas().to_vec();
+    areas[2] = 0.0;
+    case.exchange = case.exchange.of_parts(areas);
     for method in METHODS {
         let solution = solve(&case.system(), &with(method)).unwrap();
         assert!(solution.report.converged);
         assert_eq!(solution.lights[0][2], [1.0; 3]);
-        let energy = solution.report.energies[0];
-        assert!(energy.emitted[0].is_finite() && energy.absorbed[0].is_finite());
+        let power = solution.report.powers[0];
+        assert!(power.emitted[0].is_finite() && power.absorbed[0].is_finite());
     }
     assert!(spectral_radius(&case.system()) < 1.0);
 }
@@ -131,12 +134,50 @@ fn numbers_that_are_not_finite_are_traced_to_their_patch() {
     case.lights[0][3][1] = f64::NAN;
     let error = solve(&case.system(), &Params::default()).unwrap_err();
     assert_eq!(error, SolveError::NotFinite { patch: 3 });
-    let mut case = Case::uniform_enclosure(5, [1.0; 3], [0.5; 3]);
-    let mut values = case.exchange.values().to_vec();
+    let case = Case::uniform_enclosure(5, [1.0; 3], [0.5; 3]);
+    let mut values = case.values();
     values[packed_len(4) + 2] = f32::NAN;
-    case.exchange = SymmetricMatrix::new(5, values).unwrap();
+    let case = case.with_values(values);
     for method in METHODS {
         let error = solve(&case.system(), &with(method)).unwrap_err();
         assert_eq!(error, SolveError::NotFinite { patch: 2 });
+    }
+}
+
+/// An exchange that knows products alone.
+#[derive(Debug)]
+struct WithoutRows(DenseExchange);
+
+impl Exchange for WithoutRows {
+    fn areas(&self) -> &[f64] {
+        self.0.areas()
+    }
+
+    fn product(&self, x: &[Triple<f32>], triples: usize) -> Vec<Triple<f64>> {
+        self.0.product(x, triples)
+    }
+
+    fn rows(&self) -> Option<&dyn Sweep> {
+        None
+    }
+}
+
+/// Conjugate gradients need products alone.
+#[test]
+fn gauss_seidel_needs_rows() {
+    let case = Case::uniform_enclosure(40, [1.0, 0.5, 0.0], [0.5, 0.7, 0.9]);
+    let exchange = WithoutRows(case.exchange.clone());
+    let system = System {
+        exchange: &exchange,
+        ..case.system()
+    };
+    for method in METHODS {
+        let found = solve(&system, &with(method));
+        match method.0 {
+            Method::GaussSeidel => assert_eq!(found.unwrap_err(), SolveError::NoRows),
+            Method::ConjugateGradients => {
+                assert_eq!(found.unwrap(), case.solve(&with(method)));
+            }
+        }
     }
 }
