@@ -15,7 +15,7 @@ use radiosity_generate::nested_box;
 use std::path::Path;
 use std::time::Instant;
 
-/// A size of the box, the tolerance at which its factors, lumped to those between the 313
+/// A size of the box, the tolerance at which its factors, aggregate to those between the 313
 /// rectangles, are as accurate as View3D's at 313, and what View3D takes when told of the
 /// obstruction apart, which is its faster form.
 struct Size {
@@ -95,7 +95,7 @@ fn measure(root: &Path, size: &Size, exact: &[f32]) -> Result<Vec<Figure>, Error
             "thousandths, of a row",
             None,
         ),
-        figure("rms", 1e6 * rms, "millionths, lumped to 313", as_good),
+        figure("rms", 1e6 * rms, "millionths, aggregate to 313", as_good),
         figure("rows_off", 1e6 * off, "millionths off 1, on average", None),
         figure("seconds", seconds, "s, one thread", None),
         figure(

@@ -1,21 +1,33 @@
-//! The accurate estimator of one pair: after it has been classified (hidden, clear, or partly
-//! hidden), *integrate* the unoccluded kernel, and *measure* the visible share where there is
-//! doubt.
+//! The accurate estimator, the default: it *integrates* the kernel with nothing in the way, near
+//! or far, and *measures* the visible fraction of pairs that something may stand between.
 
-use crate::blocker::Blocker;
-use crate::budget::Budget;
-use crate::element::{Element, Elements};
-use crate::far::{self, FarTile};
-use crate::lines::{Blocked, Lines};
-use crate::obstacles::{Between, Obstacles};
-use crate::random::Stream;
-use crate::tally::Sight;
-use crate::target::Target;
-use crate::tiles::{Tile, Tiling};
-use crate::unoccluded;
-use crate::visible::{Share, share};
+pub(crate) mod contour;
+mod error_budget;
+mod far_field;
+mod gauss;
+mod lambert;
+pub(crate) mod line_sampling;
+mod near_field;
+pub(crate) mod patch_quadrature;
+mod strata;
+mod visible_fraction;
+
+use crate::culling::blocker::Blocker;
+use crate::culling::blockers::Blockers;
+use crate::hemisphere::{Hemisphere, around_free_part};
+use crate::sampling::patch_sampler::PatchSampler;
+use crate::sampling::random::Stream;
+use crate::tally::Visibility;
+use crate::traversal::tile_block::{PairEstimator, TileBlock, TilePair, Workspace};
+use crate::traversal::tiled_mesh::{FEW, TiledMesh};
+use crate::traversal::tiles::Tile;
+use error_budget::ErrorBudget;
+use far_field::FarTile;
+use line_sampling::{Blocked, Lines};
+use patch_quadrature::{PatchQuadrature, Quadratures};
 use radiosity_geometry::Mesh;
 use radiosity_simd::LANES;
+use visible_fraction::{Share, share};
 
 /// The share of a row's tolerance that the unoccluded exchange may use up.
 const UNOCCLUDED_SHARE: f64 = 0.02;
@@ -23,12 +35,15 @@ const UNOCCLUDED_SHARE: f64 = 0.02;
 const SEED: u64 = 0;
 
 /// Patches, ready for the accurate estimator.
-pub(crate) struct Accurate<'a> {
-    mesh: &'a Mesh,
-    elements: Elements,
+pub(crate) struct Accurate {
+    quadratures: Quadratures,
+    /// By patch.
+    areas: Vec<f64>,
+    total_area: f64,
+    /// By tile.
     far_tiles: Vec<Option<FarTile>>,
     tolerance: f64,
-    pub(crate) budget: Budget,
+    budget: ErrorBudget,
 }
 
 /// `A_i F_ij` and its standard error, in scene units.
@@ -38,112 +53,162 @@ pub(crate) struct PairEstimate {
     pub(crate) error: f64,
     /// By how much the error is larger than it was to be, since there is a limit to samples.
     pub(crate) missed: f64,
-    pub(crate) sight: Sight,
+    pub(crate) visibility: Visibility,
 }
 
 impl PairEstimate {
     /// Of patches with nothing between them.
     pub(crate) fn clear(value: f64, error: f64) -> PairEstimate {
-        let sight = Sight::Clear;
         PairEstimate {
             value,
             error,
             missed: 0.0,
-            sight,
+            visibility: Visibility::Clear,
         }
     }
 }
 
-impl<'a> Accurate<'a> {
-    pub(crate) fn new(mesh: &'a Mesh, tiling: &Tiling, tolerance: f64) -> Accurate<'a> {
-        let elements = Elements::new(mesh);
-        let far_tile = |tile: &Tile| {
-            let patches = tile.patches.iter();
-            FarTile::new(&patches.map(|&patch| elements.single(patch)).collect())
-        };
-        Accurate {
-            mesh,
-            far_tiles: tiling.tiles.iter().map(far_tile).collect(),
-            elements,
-            tolerance,
-            budget: Budget::new(tolerance, mesh.patches.len()),
+impl PairEstimator for Accurate {
+    fn fill(
+        &self,
+        block: &mut TileBlock,
+        mesh: &TiledMesh<'_>,
+        tiles: TilePair<'_>,
+        _workspace: &mut Workspace,
+    ) {
+        let [tile, other] = [tiles.tile, tiles.other].map(|tile| &mesh.tiling.tiles[tile]);
+        for (lane, &i) in tile.patches.iter().enumerate() {
+            let ends = [&mesh.bounds[i], &other.bound];
+            let Some(blockers) = mesh.view(tiles.blockers, ends, FEW) else {
+                continue;
+            };
+            let far = self.far(i, tiles.other, mesh);
+            for (k, j) in mesh.on_other_walls(i, tiles.other) {
+                let estimate = self.estimate(mesh, [i, j], far[k], &blockers);
+                if let Some(estimate) = estimate.filter(|e| e.value > 0.0 || e.error > 0.0) {
+                    block.values[lane][k] = (estimate.value / self.total_area) as f32;
+                    block.estimates.push(([lane, k], estimate));
+                }
+            }
         }
     }
 
-    /// By patch, the area that exchanges light.
-    pub(crate) fn areas(&self) -> Vec<f64> {
-        self.elements.areas()
+    fn tells_errors(&self) -> bool {
+        true
+    }
+
+    /// Without what other faces lie on.
+    fn areas(&self, _mesh: &Mesh) -> Vec<f64> {
+        self.areas.clone()
+    }
+
+    fn hemisphere(&self, mesh: &TiledMesh<'_>, patch: usize) -> Hemisphere {
+        around_free_part(mesh.mesh, &mesh.blockers, patch)
+    }
+}
+
+impl Accurate {
+    pub(crate) fn new(mesh: &TiledMesh<'_>, tolerance: f64) -> Accurate {
+        let quadratures = Quadratures::new(mesh.mesh);
+        let far_tile = |tile: &Tile| {
+            let patches = tile.patches.iter();
+            FarTile::new(&patches.map(|&patch| quadratures.single(patch)).collect())
+        };
+        let areas = quadratures.areas();
+        let mut accurate = Accurate {
+            far_tiles: mesh.tiling.tiles.iter().map(far_tile).collect(),
+            quadratures,
+            total_area: areas.iter().sum(),
+            budget: ErrorBudget::new(tolerance, areas.len()),
+            areas,
+            tolerance,
+        };
+        accurate.budget = accurate.shared_budget(mesh);
+        accurate
+    }
+
+    /// The exchange of a pair that may see each other's fronts. `far` is that with nothing between
+    /// them, if they are far apart.
+    fn estimate(
+        &self,
+        mesh: &TiledMesh<'_>,
+        pair: [usize; 2],
+        far: Option<PairEstimate>,
+        around: &Blockers,
+    ) -> Option<PairEstimate> {
+        if far.is_some() && around.is_clear() {
+            return far;
+        }
+        let blockers = mesh.view(around, pair.map(|patch| &mesh.bounds[patch]), FEW)?;
+        let unoccluded = far.unwrap_or_else(|| self.near(pair, mesh));
+        Some(self.with_blockers(pair, unoccluded, &blockers, mesh))
     }
 
     /// The exchange of a patch with those of a tile that are far from it, if nothing stood between
     /// them.
-    pub(crate) fn far(
-        &self,
-        i: usize,
-        tile: usize,
-        obstacles: &Obstacles,
-    ) -> [Option<PairEstimate>; LANES] {
+    fn far(&self, i: usize, tile: usize, mesh: &TiledMesh<'_>) -> [Option<PairEstimate>; LANES] {
         let error = UNOCCLUDED_SHARE * self.tolerance;
-        let tolerance = obstacles.occluders.plane_tolerance();
-        match (self.elements.single(i), &self.far_tiles[tile]) {
-            (Some(element), Some(tile)) => far::exchange(element, tile, error, tolerance),
+        let tolerance = mesh.blockers.occluders.plane_tolerance();
+        match (self.quadratures.single(i), &self.far_tiles[tile]) {
+            (Some(patch), Some(tile)) => far_field::exchange(patch, tile, error, tolerance),
             _ => [None; LANES],
         }
     }
 
     /// The exchange of a pair of patches, if nothing stood between them.
-    pub(crate) fn near(&self, pair: [usize; 2], obstacles: &Obstacles) -> PairEstimate {
-        let tolerance = obstacles.occluders.plane_tolerance();
+    fn near(&self, pair: [usize; 2], mesh: &TiledMesh<'_>) -> PairEstimate {
+        let tolerance = mesh.blockers.occluders.plane_tolerance();
         let pieces = self.pieces(pair);
-        let exchanges = pieces.map(|[i, j]| unoccluded::exchange(i, j, tolerance));
+        let exchanges = pieces.map(|[i, j]| near_field::exchange(i, j, tolerance));
         exchanges.fold(PairEstimate::clear(0.0, 0.0), |sum, exchange| {
             PairEstimate::clear(sum.value + exchange.value, sum.error + exchange.error)
         })
     }
 
     /// All pieces of a patch with all of another.
-    fn pieces(&self, [i, j]: [usize; 2]) -> impl Iterator<Item = [&Element; 2]> {
-        let (of_i, of_j) = (self.elements.of(i), self.elements.of(j));
+    fn pieces(&self, [i, j]: [usize; 2]) -> impl Iterator<Item = [&PatchQuadrature; 2]> {
+        let (of_i, of_j) = (self.quadratures.of(i), self.quadratures.of(j));
         of_i.iter()
             .flat_map(move |i| of_j.iter().map(move |j| [i, j]))
     }
 
     /// The exchange of a pair of patches, with this between them.
-    pub(crate) fn past(
+    fn with_blockers(
         &self,
         pair: [usize; 2],
         unoccluded: PairEstimate,
-        between: &Between,
-        obstacles: &Obstacles,
+        blockers: &Blockers,
+        mesh: &TiledMesh<'_>,
     ) -> PairEstimate {
         let clear = unoccluded.value;
         if clear == 0.0 {
             return unoccluded;
         }
-        let faces = pair.map(|patch| obstacles.wall(&self.mesh.patches[patch]));
+        let scene = &mesh.blockers;
+        let walls = pair.map(|patch| scene.wall(&mesh.mesh.patches[patch]));
         let listed: Vec<Blocker>;
-        let blocked = match between {
-            Between::Few(faces) if faces.is_empty() => return unoccluded,
-            Between::Few(faces) => {
-                listed = faces.iter().map(|&f| *obstacles.blocker(f)).collect();
-                Blocked::By(&listed)
+        let blocked = match blockers {
+            Blockers::List(faces) if faces.is_empty() => return unoccluded,
+            Blockers::List(faces) => {
+                listed = faces.iter().map(|&f| *scene.blocker(f)).collect();
+                Blocked::List(&listed)
             }
-            Between::Many => Blocked::Somehow(&obstacles.occluders, faces),
+            Blockers::Tree => Blocked::Tree(&scene.occluders, walls),
         };
-        let tolerance = obstacles.occluders.plane_tolerance();
-        let ends = pair.map(|patch| (patch, self.elements.area(patch)));
+        let tolerance = scene.occluders.plane_tolerance();
+        let ends = pair.map(|patch| (patch, self.areas[patch]));
         // The same for all pieces: what they may add to the error goes by what they add.
         let wanted = self.budget.of_pair(ends, clear) / clear;
-        let is_whole = pair.map(|patch| self.elements.single(patch).is_some()) == [true; 2];
+        let is_whole = pair.map(|patch| self.quadratures.single(patch).is_some()) == [true; 2];
         let mut sum = PairEstimate {
             value: 0.0,
-            sight: Sight::Partial,
+            visibility: Visibility::Partial,
             ..unoccluded
         };
         for (piece, elements) in self.pieces(pair).enumerate() {
             let clear = match is_whole {
                 true => clear,
-                false => unoccluded::exchange(elements[0], elements[1], tolerance).value,
+                false => near_field::exchange(elements[0], elements[1], tolerance).value,
             };
             if clear > 0.0 {
                 let stream = Stream::of_pair(SEED + piece as u64, pair[0], pair[1]);
@@ -159,7 +224,7 @@ impl<'a> Accurate<'a> {
 
 /// The visible share of a pair, as the points of the smaller element see the larger one.
 fn visible(
-    [i, j]: [&Element; 2],
+    [i, j]: [&PatchQuadrature; 2],
     blocked: &Blocked<'_>,
     (stream, wanted): (Stream, f64),
     tolerance: f64,
@@ -171,7 +236,7 @@ fn visible(
     };
     let lines = Lines::new(
         (&corners, from.normal),
-        Target::new(&across.polygon, across.normal),
+        PatchSampler::new(&across.polygon, across.normal),
         blocked,
     );
     share(&lines, stream, wanted)

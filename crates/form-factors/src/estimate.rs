@@ -1,21 +1,22 @@
 //! Stage 2: all rows, or some of them at a time.
 //!
-//! Patches are met in tiles of eight. What may stand between two tiles is narrowed down on the
-//! way from groups of tiles to single patches, or for the regular rule to tiles (`pairs.rs`), so
-//! most pairs cost no visibility test at all. Tiles of rows are filled in parallel; each entry
-//! depends on its pair alone, so the result is the same for any number of threads.
+//! Pairs are processed in tiles of eight patches. What may stand between two tiles is culled from
+//! groups of tiles down to tiles, and by most estimators down to pairs, so that most pairs cost no
+//! visibility test at all. An estimator turns two tiles into one block of values and errors
+//! ([`PairEstimator`]). Tiles of rows are filled in parallel; each value depends on its pair alone,
+//! so the result is the same for any number of threads.
 
 use crate::accurate::Accurate;
-use crate::monte_carlo::{MonteCarlo, Strata};
-use crate::obstacles::Obstacles;
-use crate::pairs::TileBlock;
-use crate::part::Part;
-use crate::regular::{Regular, Scratch};
-use crate::surroundings::{Surroundings, around_free_part, look_around};
+use crate::culling::blockers::Blockers;
+use crate::hemisphere::Hemisphere;
+use crate::monte_carlo::MonteCarlo;
+use crate::regular::Regular;
 use crate::tally::Tally;
-use crate::tiles::{Tile, Tiling};
+use crate::traversal::tile_block::{PairEstimator, TileBlock, TilePair, Workspace};
+use crate::traversal::tiled_mesh::{FEW, TiledMesh};
+use crate::traversal::tiles::{Group, Tile, Tiling};
 use crate::{Closure, Estimator, FormFactors, Params};
-use radiosity_geometry::{Mesh, Patch};
+use radiosity_geometry::Mesh;
 use radiosity_matrix::{SymmetricMatrix, packed_len};
 use radiosity_params::Parameters;
 use rayon::prelude::*;
@@ -52,84 +53,73 @@ pub fn estimate(mesh: &Mesh, params: &Params) -> FormFactors {
 
 /// [`estimate`] in steps.
 pub struct Estimation<'a> {
-    pub(crate) mesh: &'a Mesh,
-    /// By patch.
-    pub(crate) parts: Vec<Part>,
-    pub(crate) tiling: Tiling,
-    pub(crate) obstacles: Obstacles,
-    pub(crate) method: Method<'a>,
-    /// By patch, the area that exchanges light.
+    pub(crate) mesh: TiledMesh<'a>,
+    pub(crate) estimator: Box<dyn PairEstimator + 'a>,
+    /// By patch, the area that takes part.
     pub(crate) areas: Vec<f64>,
-    pub(crate) scale: f64,
-}
-
-/// The estimator with what it prepares.
-pub(crate) enum Method<'a> {
-    Regular(Regular),
-    MonteCarlo(MonteCarlo),
-    Accurate(Accurate<'a>),
-}
-
-/// What the estimators reuse from pair to pair.
-#[derive(Default)]
-pub(crate) struct Room {
-    pub(crate) regular: Scratch,
-    pub(crate) strata: Strata,
+    pub(crate) total_area: f64,
 }
 
 impl<'a> Estimation<'a> {
     /// Prepares what every pair needs.
     pub fn new(mesh: &'a Mesh, estimator: Estimator) -> Estimation<'a> {
-        let obstacles = Obstacles::new(mesh);
-        let tiling = Tiling::new(mesh, &obstacles.walls);
-        let method = match estimator {
-            Estimator::Regular { points } => {
-                Method::Regular(Regular::new(mesh, &obstacles, &tiling, points))
-            }
+        let tiled = TiledMesh::new(mesh);
+        let estimator: Box<dyn PairEstimator + 'a> = match estimator {
+            Estimator::Accurate { tolerance } => Box::new(Accurate::new(&tiled, tolerance)),
+            Estimator::Regular { points } => Box::new(Regular::new(&tiled, points)),
             Estimator::MonteCarlo {
                 points,
                 pairs,
                 seed,
-            } => Method::MonteCarlo(MonteCarlo::new(points, pairs, seed)),
-            Estimator::Accurate { tolerance } => {
-                Method::Accurate(Accurate::new(mesh, &tiling, tolerance))
-            }
+            } => Box::new(MonteCarlo::new(mesh, (points, pairs), seed)),
         };
-        let part = |patch: &Patch| {
-            let face = &mesh.faces[patch.face.index()];
-            Part::on_face(obstacles.wall(patch), face, patch.polygon.padded_corners())
-        };
-        let areas = match &method {
-            Method::Accurate(accurate) => accurate.areas(),
-            Method::Regular(_) | Method::MonteCarlo(_) => {
-                mesh.patches.iter().map(|patch| patch.area).collect()
-            }
-        };
-        let mut estimation = Estimation {
-            mesh,
-            parts: mesh.patches.iter().map(part).collect(),
-            tiling,
-            obstacles,
-            method,
-            scale: 1.0 / areas.iter().sum::<f64>(),
+        let areas = estimator.areas(mesh);
+        Estimation {
+            total_area: areas.iter().sum(),
             areas,
-        };
-        let budget = match (&estimation.method, estimator) {
-            (Method::Accurate(accurate), Estimator::Accurate { tolerance }) => {
-                Some(estimation.budget(accurate, tolerance))
-            }
-            _ => None,
-        };
-        if let (Method::Accurate(accurate), Some(budget)) = (&mut estimation.method, budget) {
-            accurate.budget = budget;
+            estimator,
+            mesh: tiled,
         }
-        estimation
+    }
+
+    /// Hands on the blocks of a tile with some tiles of a group, each with the other tile, but for
+    /// those that cannot see it.
+    pub(crate) fn for_each_block(
+        &self,
+        tile: usize,
+        (group, others): (&Group, Range<usize>),
+        workspace: &mut Workspace,
+        mut take: impl FnMut(usize, &TileBlock),
+    ) {
+        let (mesh, tiles) = (&self.mesh, &self.mesh.tiling.tiles);
+        let bound = &tiles[tile].bound;
+        let Some(of_group) = mesh.view(&Blockers::Tree, [bound, &group.bound], FEW) else {
+            return;
+        };
+        let mut block = TileBlock::default();
+        for other in others {
+            // The only tile of a group is all of it.
+            let of_tile = match group.tiles.len() {
+                1 => Some(of_group.clone()),
+                _ => mesh.view(&of_group, [bound, &tiles[other].bound], FEW),
+            };
+            if let Some(blockers) = &of_tile {
+                let pair = TilePair {
+                    tile,
+                    other,
+                    blockers,
+                };
+                block.clear();
+                self.estimator.fill(&mut block, mesh, pair, workspace);
+                take(other, &block);
+            }
+        }
     }
 
     /// Estimates at least so many pairs, spread over all of them, and throws them away: for
     /// predicting how long [`Estimation::run`] will take. Returns how many pairs they were.
     pub fn time_sample(&self, pairs: u64) -> u64 {
-        let Tiling { tiles, groups, .. } = &self.tiling;
+        let Tiling { tiles, groups, .. } = &self.mesh.tiling;
         let run = |k: u64| {
             // The R2 sequence (Roberts 2018) visits the square of pairs evenly.
             let spread = |inverse: f64, size: usize| {
@@ -137,18 +127,11 @@ impl<'a> Estimation<'a> {
             };
             let tile = spread(0.754_877_666_246_693, tiles.len());
             let group = &groups[spread(0.569_840_290_998_053, groups.len())];
-            let mut sum = 0.0;
-            let mut room = Room::default();
-            let add = |_, told: TileBlock<'_>| sum += told.values.iter().sum::<f32>();
+            let others = (group, group.tiles.clone());
+            self.for_each_block(tile, others, &mut Workspace::default(), |_, block| {
+                std::hint::black_box(block);
+            });
             let patches = |tile: &Tile| tile.patches.len() as u64;
-            let lanes = 0..tiles[tile].patches.len();
-            self.against(
-                (tile, lanes),
-                (group, group.tiles.clone()),
-                &mut room,
-                &mut { add },
-            );
-            std::hint::black_box(sum);
             let of_group = tiles[group.tiles.clone()].iter().map(patches);
             patches(&tiles[tile]) * of_group.sum::<u64>()
         };
@@ -165,11 +148,11 @@ impl<'a> Estimation<'a> {
 
     /// Estimates all pairs.
     pub fn run(&self) -> FormFactors {
-        let size = self.mesh.patches.len();
+        let size = self.areas.len();
         let mut values = vec![0.0; packed_len(size)];
         let tally = Tally::new(size);
         let all = (0..size, &mut values[..]);
-        self.fill(all, 0..self.tiling.tiles.len(), &tally);
+        self.fill(all, 0..self.mesh.tiling.tiles.len(), &tally);
         let matrix = SymmetricMatrix::new(size, values).expect("one value per pair was made");
         self.complete(matrix, &tally)
     }
@@ -178,9 +161,11 @@ impl<'a> Estimation<'a> {
     /// that have at least so many pairs, or all that are left. `None` if there are none left, or
     /// if the ones before end where no such rows do.
     pub fn next_rows(&self, first: usize, pairs: u64) -> Option<Range<usize>> {
-        let strips = &self.tiling.strips;
-        let start = strips.binary_search_by_key(&first, |strip| strip.patches.start);
-        let ends = strips[start.ok()?..].iter().map(|strip| strip.patches.end);
+        let row_runs = &self.mesh.tiling.row_runs;
+        let start = row_runs.binary_search_by_key(&first, |row_run| row_run.patches.start);
+        let ends = row_runs[start.ok()?..]
+            .iter()
+            .map(|row_run| row_run.patches.end);
         let before = packed_len(first) as u64;
         let mut last = first;
         for end in ends {
@@ -200,23 +185,15 @@ impl<'a> Estimation<'a> {
 
     /// What all rows together make, once all are filled.
     pub fn complete(&self, matrix: SymmetricMatrix, tally: &Tally) -> FormFactors {
-        let look = |patch| match self.method {
-            Method::Accurate(_) => around_free_part(self.mesh, &self.obstacles, patch),
-            Method::Regular(_) | Method::MonteCarlo(_) => {
-                look_around(&self.obstacles, &self.mesh.patches[patch], [patch, 0])
-            }
-        };
-        let patches = 0..self.mesh.patches.len();
-        let surroundings: Vec<Surroundings> = patches.into_par_iter().map(look).collect();
+        let look = |patch| self.estimator.hemisphere(&self.mesh, patch);
+        let patches = (0..self.areas.len()).into_par_iter();
+        let hemispheres: Vec<Hemisphere> = patches.map(look).collect();
         let errors = self.tells_errors().then(|| tally.sums());
-        FormFactors::new(self.areas.clone(), matrix, errors, &surroundings)
+        FormFactors::new(self.areas.clone(), matrix, errors, &hemispheres)
     }
 
     /// Whether the estimator knows the errors of its rows.
     pub fn tells_errors(&self) -> bool {
-        match self.method {
-            Method::Accurate(_) => true,
-            Method::Regular(_) | Method::MonteCarlo(_) => false,
-        }
+        self.estimator.tells_errors()
     }
 }

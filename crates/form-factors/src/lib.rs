@@ -18,63 +18,37 @@
 //! This crate knows nothing of materials, emission, cameras or names, so changing those cannot
 //! invalidate what it computed.
 
-mod accurate;
-mod ahead;
-mod begun;
-mod blocker;
-mod budget;
-mod cells;
+pub mod accurate;
+mod aggregate;
 mod closure;
-mod contour;
-mod element;
+pub mod culling;
 mod elements;
 mod estimate;
 mod estimator;
-mod exchange;
-mod fan;
-mod far;
-mod fixed;
-mod gauss;
-mod hidden;
-mod hull;
-mod lambert;
-mod lattice;
-mod lines;
-mod lumped;
-mod monte_carlo;
-mod obstacles;
-mod pairs;
+mod fixed_point_sum;
+pub mod hemisphere;
+mod kernel;
+pub mod monte_carlo;
 mod params;
-mod part;
-mod points;
-mod random;
-mod reduced_points;
-mod regular;
-mod reverse;
-mod samples;
-mod shade;
-mod surroundings;
+pub mod regular;
+pub mod sampling;
 mod tally;
-mod target;
-mod tiles;
-mod transfer;
-mod unoccluded;
-mod visible;
+pub mod traversal;
 
 use elements::{visible_areas, visible_share};
+use hemisphere::Hemisphere;
 use radiosity_matrix::{DenseExchange, Exchange, SymmetricMatrix};
 use serde::{Deserialize, Serialize};
-use surroundings::Surroundings;
-use tally::Errors;
+use tally::RowErrors;
 
-pub use begun::Begun;
+pub use aggregate::AggregateFactors;
 pub use closure::{Closure, ClosureFacts};
 pub use estimate::{Estimation, estimate};
 pub use estimator::Estimator;
-pub use lumped::LumpedFactors;
+pub use hemisphere::error_of_rays;
 pub use params::{Mode, Params};
-pub use surroundings::error_of_rays;
 pub use tally::{ClassFacts, Classes, Tally};
+pub use traversal::begun_rows::BegunRows;
 
 /// Raise it whenever the same mesh would give other form factors, because of a change here, in
 /// `geometry`, or in the random numbers: it is part of their key.
@@ -128,17 +102,17 @@ impl FormFactors {
     fn new(
         areas: Vec<f64>,
         matrix: SymmetricMatrix,
-        errors: Option<Errors>,
-        surroundings: &[Surroundings],
+        errors: Option<RowErrors>,
+        hemispheres: &[Hemisphere],
     ) -> FormFactors {
         let whole = DenseExchange::new(matrix, areas.clone());
         let fronts = whole.weighted_sums(&vec![1.0; areas.len()]);
         let row = |i: usize| RowFacts {
             fronts: quotient(fronts[i], areas[i]),
-            backs: surroundings[i].backs,
-            background: surroundings[i].background,
-            rays_error: surroundings[i].error,
-            visible: surroundings[i].visible,
+            backs: hemispheres[i].backs,
+            background: hemispheres[i].background,
+            rays_error: hemispheres[i].error,
+            visible: hemispheres[i].visible,
             error: errors.as_ref().map(|errors| errors.estimated[i]),
             missed: errors.as_ref().map_or(0.0, |errors| errors.missed[i]),
         };

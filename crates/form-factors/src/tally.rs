@@ -1,14 +1,14 @@
 //! What is counted while rows are filled: the same whatever the order.
 
 use crate::accurate::PairEstimate;
-use crate::fixed::{Fixed, FixedSums};
+use crate::fixed_point_sum::{FixedPoint, FixedPointSums};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::ops::AddAssign;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// How much two patches see of each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Sight {
+pub(crate) enum Visibility {
     /// Nothing stands between.
     Clear,
     /// Something may, and what is visible has been measured.
@@ -37,23 +37,23 @@ pub struct Classes {
 /// The errors of rows and of classes of pairs, as far as they are estimated.
 pub struct Tally {
     /// Of all rows, then what all rows have missed, and then of both classes.
-    errors: FixedSums,
+    errors: FixedPointSums,
     pairs: [AtomicU64; 2],
 }
 
 /// What pairs add to the error of a row, and to what it has missed.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct RowError {
-    error: Fixed,
-    missed: Fixed,
+    error: FixedPoint,
+    missed: FixedPoint,
 }
 
 impl RowError {
     /// Of a pair in the row of a patch of this area.
     pub(crate) fn of(exchange: &PairEstimate, area: f64) -> RowError {
         RowError {
-            error: Fixed::of(exchange.error / area),
-            missed: Fixed::of(exchange.missed / area),
+            error: FixedPoint::of(exchange.error / area),
+            missed: FixedPoint::of(exchange.missed / area),
         }
     }
 }
@@ -66,7 +66,7 @@ impl AddAssign for RowError {
 }
 
 /// What is known of the errors of all rows.
-pub(crate) struct Errors {
+pub(crate) struct RowErrors {
     /// By row.
     pub(crate) estimated: Vec<f64>,
     /// By row.
@@ -77,7 +77,7 @@ pub(crate) struct Errors {
 impl Clone for Tally {
     fn clone(&self) -> Tally {
         Tally {
-            errors: FixedSums::from_units(self.errors.units()),
+            errors: FixedPointSums::from_units(self.errors.units()),
             pairs: self.pairs().map(AtomicU64::new),
         }
     }
@@ -87,7 +87,7 @@ impl Clone for Tally {
 #[derive(Default)]
 pub(crate) struct ClassSums {
     /// Times [`FINER`].
-    errors: [Fixed; 2],
+    errors: [FixedPoint; 2],
     pairs: [u64; 2],
 }
 
@@ -96,13 +96,13 @@ pub(crate) struct ClassSums {
 const FINER: f64 = 65536.0;
 
 impl ClassSums {
-    pub(crate) fn add(&mut self, sight: Sight, error: f64) {
-        let class = match sight {
-            Sight::Clear => 0,
-            Sight::Partial => 1,
+    pub(crate) fn add(&mut self, visibility: Visibility, error: f64) {
+        let class = match visibility {
+            Visibility::Clear => 0,
+            Visibility::Partial => 1,
         };
         self.pairs[class] += 1;
-        self.errors[class] += Fixed::of(FINER * error);
+        self.errors[class] += FixedPoint::of(FINER * error);
     }
 }
 
@@ -110,7 +110,7 @@ impl Tally {
     /// Nothing is estimated yet of so many rows.
     pub fn new(rows: usize) -> Tally {
         Tally {
-            errors: FixedSums::new(2 * rows + 2),
+            errors: FixedPointSums::new(2 * rows + 2),
             pairs: Default::default(),
         }
     }
@@ -135,7 +135,7 @@ impl Tally {
         }
     }
 
-    pub(crate) fn sums(&self) -> Errors {
+    pub(crate) fn sums(&self) -> RowErrors {
         let mut estimated = self.errors.sums();
         let mut missed = estimated.split_off(self.rows());
         let of_classes = missed.split_off(self.rows());
@@ -144,7 +144,7 @@ impl Tally {
             error: of_classes[k] / FINER,
         };
         let (clear, partial) = (class(0), class(1));
-        Errors {
+        RowErrors {
             estimated,
             missed,
             classes: Classes { clear, partial },
@@ -162,7 +162,7 @@ impl<'de> Deserialize<'de> for Tally {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Tally, D::Error> {
         let (units, pairs) = <(Vec<u64>, [u64; 2])>::deserialize(deserializer)?;
         Ok(Tally {
-            errors: FixedSums::from_units(units),
+            errors: FixedPointSums::from_units(units),
             pairs: pairs.map(AtomicU64::new),
         })
     }

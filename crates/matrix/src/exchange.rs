@@ -133,7 +133,7 @@ impl DenseExchange {
     /// The sums of exchange areas between sets of patches: entry `a * parts + b` is that of all
     /// pairs `(i, j)` with `i` in set `a` and `j` in set `b`. Every `part_of[i]` is below `parts`.
     pub fn areas_between(&self, part_of: &[usize], parts: usize) -> Vec<f64> {
-        let mut sums = self.matrix.lumped_sums(part_of, parts);
+        let mut sums = self.matrix.block_sums(part_of, parts);
         sums.iter_mut().for_each(|sum| *sum *= self.unit);
         sums
     }

@@ -137,7 +137,7 @@ impl SymmetricMatrix {
     /// The sums over blocks of entries, in `f64`: entry `a * parts + b` is that of all `(i, j)`
     /// with `i` in part `a` and `j` in part `b`. Every `part_of[i]` is below `parts`. The same for
     /// any number of threads.
-    pub fn lumped_sums(&self, part_of: &[usize], parts: usize) -> Vec<f64> {
+    pub fn block_sums(&self, part_of: &[usize], parts: usize) -> Vec<f64> {
         let mut rows_of = vec![Vec::new(); parts];
         part_of
             .iter()

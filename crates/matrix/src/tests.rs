@@ -46,7 +46,7 @@ proptest! {
     #[test]
     fn lumped_sums_are_sums_over_blocks(part_of in prop::collection::vec(0usize..4, 0..40)) {
         let matrix = counting(part_of.len());
-        let sums = matrix.lumped_sums(&part_of, 4);
+        let sums = matrix.block_sums(&part_of, 4);
         for (k, &sum) in sums.iter().enumerate() {
             let mut direct = 0.0;
             for i in (0..part_of.len()).filter(|&i| part_of[i] == k / 4) {

@@ -7,7 +7,7 @@
 
 use crate::observer::Observer;
 use radiosity_cache::Batch;
-use radiosity_form_factors::{Begun, Estimation, Tally};
+use radiosity_form_factors::{BegunRows, Estimation, Tally};
 use radiosity_matrix::packed_len;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -22,7 +22,7 @@ pub(crate) struct Finished {
     /// How many rows are finished, and in the file.
     pub(crate) rows: u64,
     /// Those after them that are begun, or finished after one that is not.
-    pub(crate) begun: Vec<Begun>,
+    pub(crate) begun: Vec<BegunRows>,
     /// What is known of all of these.
     pub(crate) tally: Tally,
     /// How many pairs of them are estimated.
@@ -99,11 +99,12 @@ pub(crate) fn estimate_in_memory(
         first = rows.end;
         Some(estimation.begin_in(rows, rest.split_off_mut(..pairs)?))
     });
-    next.par_bridge().for_each(|mut rows: Begun<&mut [f32]>| {
-        while !estimation.is_finished(&rows) {
-            observer.advance(estimation.go_on(&mut rows, &tally));
-        }
-    });
+    next.par_bridge()
+        .for_each(|mut rows: BegunRows<&mut [f32]>| {
+            while !estimation.is_finished(&rows) {
+                observer.advance(estimation.go_on(&mut rows, &tally));
+            }
+        });
     (values, tally)
 }
 
@@ -153,7 +154,7 @@ impl<'a> Batches<'a> {
             last = next.rows.end;
             Some(next)
         });
-        let go_on = |mut rows: Begun| {
+        let go_on = |mut rows: BegunRows| {
             while !estimation.is_finished(&rows) {
                 let pairs = estimation.go_on(&mut rows, tally);
                 more.fetch_add(pairs, Ordering::Relaxed);
@@ -164,7 +165,7 @@ impl<'a> Batches<'a> {
             }
             (estimation.is_finished(&rows), rows)
         };
-        let mut made: Vec<(bool, Begun)> = next.par_bridge().map(go_on).collect();
+        let mut made: Vec<(bool, BegunRows)> = next.par_bridge().map(go_on).collect();
         *estimated += more.into_inner();
         made.sort_unstable_by_key(|(_, of)| of.rows.start);
         let finished = made.iter().take_while(|(is_finished, _)| *is_finished);

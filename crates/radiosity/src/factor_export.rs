@@ -11,7 +11,7 @@ use crate::remedy::Remedy;
 use crate::resources::check_parts;
 use crate::row_columns;
 use radiosity_compare::table_name;
-use radiosity_form_factors::{FormFactors, LumpedFactors, RowFacts};
+use radiosity_form_factors::{AggregateFactors, FormFactors, RowFacts};
 use radiosity_geometry::{Face, Mesh};
 use radiosity_scene::Scene;
 use rayon::prelude::*;
@@ -52,7 +52,7 @@ enum Entries<'a> {
         /// The patch of each row.
         order: Vec<usize>,
     },
-    OfParts(LumpedFactors),
+    OfParts(AggregateFactors),
 }
 
 /// Bytes of a matrix between so many patches, surfaces or groups: as `.npy`, and at most about as
@@ -101,16 +101,16 @@ impl<'a> FactorTable<'a> {
             part_of[face.patches()].fill(part);
         }
         check_parts(names.len(), Remedy::words(remedy))?;
-        let lumped = form_factors.lumped(&part_of, names.len());
+        let aggregate = form_factors.aggregate(&part_of, names.len());
         let row = |(part, name)| TableRow {
             name: table_name(name),
             cell: None,
-            area: lumped.areas[part],
-            facts: lumped.rows[part],
+            area: aggregate.areas[part],
+            facts: aggregate.rows[part],
         };
         Ok(FactorTable {
             rows: names.into_iter().enumerate().map(row).collect(),
-            entries: Entries::OfParts(lumped),
+            entries: Entries::OfParts(aggregate),
         })
     }
 
@@ -143,7 +143,7 @@ impl<'a> FactorTable<'a> {
                 form_factors,
                 order,
             } => form_factors.factor(order[i], order[j]),
-            Entries::OfParts(lumped) => lumped.factor(i, j),
+            Entries::OfParts(aggregate) => aggregate.factor(i, j),
         }
     }
 
@@ -184,10 +184,10 @@ impl<'a> FactorTable<'a> {
                     Entries::OfPatches { .. } => {
                         file.write_record([i.to_string(), j.to_string(), factor.to_string()])?;
                     }
-                    Entries::OfParts(lumped) => {
+                    Entries::OfParts(aggregate) => {
                         let [from, to] = [i, j].map(|part| &*self.rows[part].name);
-                        let factor = format!("{:.9e}", lumped.factor(i, j));
-                        file.write_record([from, to, &factor, &short(lumped.error(i, j))])?;
+                        let factor = format!("{:.9e}", aggregate.factor(i, j));
+                        file.write_record([from, to, &factor, &short(aggregate.error(i, j))])?;
                     }
                 }
             }

@@ -64,10 +64,10 @@ fn by_surface(
     found: &FormFactors,
 ) -> (Vec<f64>, impl Fn(usize, usize) -> f64 + use<>) {
     let part_of: Vec<usize> = mesh.patches.iter().map(|p| p.surface.index()).collect();
-    let lumped = found.lumped(&part_of, 1 + part_of.iter().max().unwrap());
-    let areas = lumped.areas.clone();
+    let aggregate = found.aggregate(&part_of, 1 + part_of.iter().max().unwrap());
+    let areas = aggregate.areas.clone();
     (areas.clone(), move |a: usize, b: usize| {
-        areas[a] * lumped.factor(a, b)
+        areas[a] * aggregate.factor(a, b)
     })
 }
 
