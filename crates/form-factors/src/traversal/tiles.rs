@@ -28,8 +28,8 @@ pub(crate) struct RowRun {
     pub(crate) patches: Range<usize>,
 }
 
-/// All patches of a mesh, each in one tile. All patches of a run of rows come before those of the next,
-/// and a group consists of whole runs.
+/// All patches of a mesh, each in one tile. All patches of a run of rows come before those of the
+/// next, and a group consists of whole runs.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Tiling {
     pub(crate) tiles: Vec<Tile>,
