@@ -39,7 +39,7 @@ fn traced(mesh: &Mesh, light: &PatchLight) -> Shares {
         let index = ends.partition_point(|&end| end <= wanted);
         let patch = &mesh.patches[index];
         let ray = Ray::new(point_on(patch, &mut rng), direction(patch.normal, &mut rng));
-        let hit = occluders.first_from(patch.face, &ray);
+        let hit = occluders.closest_hit_from(patch.face, &ray);
         let what = hit.map_or(2, |hit| usize::from(!hit.front));
         counts[what] += 1;
     }

@@ -7,7 +7,7 @@ use crate::Error;
 use crate::figure::{Figure, Target, show};
 use crate::generated::generated;
 use radiosity::form_factors::{Estimation, Estimator};
-use radiosity::geometry::{Bundle, DVec3, Mesh, Occluders, Patch, Walls};
+use radiosity::geometry::{DVec3, MergedFaces, Mesh, Occluders, Patch, SegmentPacket};
 use radiosity_generate::blob;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -27,7 +27,7 @@ const TOLERANCE: f64 = 0.01;
 pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
     let text = blob::vs3(TRIANGLES)?;
     let (_, mesh) = generated("blob.vs3", &text)?;
-    let walls = Walls::new(&mesh);
+    let walls = MergedFaces::new(&mesh);
     let occluders = Occluders::of_walls(&walls);
     let bundles = bundles(&mesh, &walls);
     let (seconds, blocked) = ours(&occluders, &bundles);
@@ -73,7 +73,7 @@ pub(crate) fn run(root: &Path, json: bool) -> Result<(), Error> {
 }
 
 /// Eight segments between random points of two patches that face each other, as the estimators ask.
-fn bundles(mesh: &Mesh, walls: &Walls) -> Vec<Bundle> {
+fn bundles(mesh: &Mesh, walls: &MergedFaces) -> Vec<SegmentPacket> {
     let mut rng = Pcg64Mcg::seed_from_u64(0);
     let mut bundles = Vec::with_capacity(BUNDLES);
     let wall = |patch: &Patch| walls.of_face[patch.face.index()];
@@ -87,7 +87,7 @@ fn bundles(mesh: &Mesh, walls: &Walls) -> Vec<Bundle> {
                 std::array::from_fn(|_| patch.polygon.bilinear(rng.random(), rng.random()));
             [0, 1, 2].map(|axis| points.map(|point| point[axis]))
         };
-        bundles.push(Bundle {
+        bundles.push(SegmentPacket {
             points: [points(i), points(j)],
             faces: [i, j].map(|patch| [wall(patch); LANES]),
         });
@@ -96,7 +96,7 @@ fn bundles(mesh: &Mesh, walls: &Walls) -> Vec<Bundle> {
 }
 
 /// Seconds of the fastest of several rounds, and how many segments are blocked.
-fn ours(occluders: &Occluders, bundles: &[Bundle]) -> (f64, usize) {
+fn ours(occluders: &Occluders, bundles: &[SegmentPacket]) -> (f64, usize) {
     let once = |_| {
         let start = Instant::now();
         let blocked = bundles
@@ -112,7 +112,11 @@ fn ours(occluders: &Occluders, bundles: &[Bundle]) -> (f64, usize) {
 }
 
 /// The same by Embree.
-fn embree(root: &Path, walls: &Walls, bundles: &[Bundle]) -> Result<(f64, usize), String> {
+fn embree(
+    root: &Path,
+    walls: &MergedFaces,
+    bundles: &[SegmentPacket],
+) -> Result<(f64, usize), String> {
     let program = compiled(root)?;
     let input = root.join("out/embree-input.bin");
     std::fs::create_dir_all(root.join("out"))
@@ -149,7 +153,7 @@ fn compiled(root: &Path) -> Result<PathBuf, String> {
 }
 
 /// What `embree.c` reads: quads are two triangles.
-fn input_of(walls: &Walls, bundles: &[Bundle]) -> Vec<u8> {
+fn input_of(walls: &MergedFaces, bundles: &[SegmentPacket]) -> Vec<u8> {
     let mut corners: Vec<f32> = Vec::new();
     for polygon in &walls.polygons {
         let all = polygon.corners();

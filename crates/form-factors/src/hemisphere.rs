@@ -262,7 +262,7 @@ fn trace<S: Simd>(obstacles: &AllBlockers, patch: &Patch, rays: &Rays<S>) -> Fir
         let origin = DVec3::from_array(from.map(|axis| axis[lane]));
         let direction = DVec3::from_array(along.map(|axis| f64::from(axis[lane])));
         let ray = Ray::new(origin, direction);
-        let hit = occluders.first_from(own, &ray);
+        let hit = occluders.closest_hit_from(own, &ray);
         met.nothing |= u8::from(hit.is_none()) << lane;
         met.backs |= u8::from(hit.is_some_and(|hit| !hit.front)) << lane;
         let is_two_sided = |wall: FaceId| obstacles.two_sided[wall.index()];

@@ -13,7 +13,7 @@ use crate::traversal::tile_block::{PairEstimator, TileBlock, TilePair, Workspace
 use crate::traversal::tiled_mesh::TiledMesh;
 use blocked_mask::{Mark, Over, TileBearings};
 use point_sum::{FarPointSum, PointSum, Source};
-use radiosity_geometry::{Bundle, Occluders};
+use radiosity_geometry::{Occluders, SegmentPacket};
 use radiosity_simd::{LANES, dispatch};
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -215,7 +215,7 @@ fn blocked(
     let from = i.point(p, lane);
     let faces_it = |&to: &usize| kernel(from, i.normal(lane), j.point(q, to), j.normal(to)) > 0.0;
     let wanted = (0..LANES).filter(faces_it).map(|to| 1 << to).sum();
-    let bundle = Bundle {
+    let bundle = SegmentPacket {
         points: [
             from.to_array().map(|coordinate| [unit * coordinate; LANES]),
             j.points[q]

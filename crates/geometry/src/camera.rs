@@ -1,8 +1,9 @@
 //! The pinhole camera.
 
-mod moves;
+mod camera_path;
+pub(crate) mod film;
 
-use crate::ray::Ray;
+use crate::rays::ray::Ray;
 use glam::DVec3;
 
 /// A pinhole camera. The film is a rectangle at distance 1 in front of the pinhole.

@@ -13,55 +13,39 @@
 //!
 //! This crate knows nothing of files, colours, light or names.
 
-mod between;
 mod bounds;
-mod build;
-mod bundle;
-mod bvh;
 mod camera;
-mod check;
-mod covers;
+mod coplanar;
 mod discretization;
-mod face_block;
-mod film;
-mod grids;
 mod locate;
 mod mesh;
-mod morton;
-mod narrow;
-mod occluders;
 mod polygon;
 mod polygon_mesh;
-mod queries;
-mod ray;
-mod remainder;
-mod screen;
-mod shaft;
+mod rasterizer;
+mod rays;
 mod shape;
-mod slabs;
+mod shape_error;
 mod subdivide;
-mod together;
-mod walls;
 
 pub use bounds::Aabb;
-pub use bundle::{Bundle, Points};
+pub use camera::film::{Film, PixelFilter};
 pub use camera::{Camera, CameraError};
-pub use check::{ShapeError, has_area};
-pub use covers::{Covered, Covers};
+pub use coplanar::covers::{Covered, Covers};
+pub use coplanar::merged_faces::MergedFaces;
+pub use coplanar::remainder::{area_around, fan, remainder};
 pub use discretization::{Discretization, Divisions, NamedShape};
-pub use film::{Film, PixelFilter};
 pub use glam::{DVec2, DVec3};
 pub use locate::Location;
 pub use mesh::{Face, FaceId, Grid, Mesh, Patch, SurfaceId};
-pub use narrow::NarrowGrid;
-pub use occluders::{Hit, Occluders};
 pub use polygon::Polygon;
 pub use polygon_mesh::PolygonMesh;
-pub use ray::Ray;
-pub use remainder::{area_around, fan, remainder};
-pub use screen::{Backs, Linear, Offsets, Screen, Seen, SeenFace};
+pub use rasterizer::{Backs, Linear, Offsets, Screen, Seen, SeenFace};
+pub use rays::occluders::{Hit, Occluders};
+pub use rays::ray::Ray;
+pub use rays::segment_packet::{Points, SegmentPacket};
 pub use shape::Shape;
+pub use shape_error::{ShapeError, has_area};
+pub use subdivide::narrow::NarrowGrid;
 pub use subdivide::{
     FaceOrder, LEAST_SIZE, MAX_PATCHES, MeshError, Surface, count_patches, subdivide, subdivide_in,
 };
-pub use walls::Walls;

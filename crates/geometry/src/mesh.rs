@@ -1,9 +1,9 @@
 //! The mesh of patches: what every later stage indexes.
 
 use crate::bounds::Aabb;
-use crate::covers::Covers;
-use crate::narrow::NarrowGrid;
+use crate::coplanar::covers::Covers;
 use crate::polygon::Polygon;
+use crate::subdivide::narrow::NarrowGrid;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,7 @@
 //! Indexed meshes of faces with three or four corners.
 
-use crate::check::{ShapeError, check_quad, check_triangle};
 use crate::polygon::Polygon;
+use crate::shape_error::{ShapeError, check_quad, check_triangle};
 use glam::DVec3;
 
 /// Faces over shared positions, as mesh files give them.

@@ -1,8 +1,8 @@
 //! The shapes a surface can have.
 
-use crate::check::{ShapeError, check_quad, check_triangle};
 use crate::polygon::Polygon;
 use crate::polygon_mesh::PolygonMesh;
+use crate::shape_error::{ShapeError, check_quad, check_triangle};
 use glam::DVec3;
 
 /// The geometry of one surface.

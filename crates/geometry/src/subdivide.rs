@@ -2,14 +2,17 @@
 //!
 //! Long because: the stage's input, its errors and the cells of each shape.
 
-use crate::check::ShapeError;
-use crate::covers::Covers;
+pub(crate) mod grids;
+mod morton;
+pub(crate) mod narrow;
+
+use crate::coplanar::covers::Covers;
 use crate::discretization::Divisions;
-use crate::grids::with_grids;
 use crate::mesh::{Face, FaceId, Grid, Mesh, Patch, SurfaceId};
-use crate::morton;
 use crate::polygon::Polygon;
 use crate::shape::Shape;
+use crate::shape_error::ShapeError;
+use crate::subdivide::grids::with_grids;
 
 /// A shape to be cut, and how finely if not as the scene's default says.
 #[derive(Clone, Debug)]

@@ -110,7 +110,10 @@ fn lit_backs<'a>(patches: &Patches<'a>) -> BTreeSet<&'a str> {
     let mut names = BTreeSet::new();
     for lamp in spread(&lamps, MOST_LIGHTS) {
         for ray in cosine_rays(&mesh.faces[lamp.index()]) {
-            if let Some(hit) = occluders.first_from(lamp, &ray).filter(|hit| !hit.front) {
+            if let Some(hit) = occluders
+                .closest_hit_from(lamp, &ray)
+                .filter(|hit| !hit.front)
+            {
                 let surface = mesh.faces[hit.face.index()].surface;
                 names.insert(scene.surfaces[surface.index()].name.as_str());
             }

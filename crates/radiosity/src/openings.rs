@@ -57,7 +57,7 @@ impl Seen {
     fn from(mesh: &Mesh, occluders: &Occluders, face: FaceId) -> Seen {
         let mut seen = Seen::default();
         for ray in cosine_rays(&mesh.faces[face.index()]) {
-            let count = match occluders.first_from(face, &ray) {
+            let count = match occluders.closest_hit_from(face, &ray) {
                 Some(hit) if hit.front => &mut seen.fronts,
                 Some(_) => &mut seen.backs,
                 None => &mut seen.nothing,

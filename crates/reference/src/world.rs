@@ -49,7 +49,7 @@ impl World {
     /// The first front that a ray from a face meets, and where; `None` for backs and for the
     /// background.
     pub(crate) fn next_front(&self, from: FaceId, ray: &Ray) -> Option<(FaceId, DVec3)> {
-        World::front(self.occluders.first_from(from, ray), ray)
+        World::front(self.occluders.closest_hit_from(from, ray), ray)
     }
 
     /// The first front that a ray from anywhere meets at a parameter from `near` on.

@@ -112,7 +112,7 @@ impl<'a> Gather<'a> {
             let number = first.wrapping_add(lane as u32);
             let [x, y, z] = raised(sobol(number, scramble));
             let ray = Ray::new(at, x * tangent + y * bitangent + z * normal);
-            let hit = self.occluders.first_from(face, &ray);
+            let hit = self.occluders.closest_hit_from(face, &ray);
             met.inverse += hit.map_or(0.0, |hit| 1.0 / hit.t) as f32;
             let Some(hit) = hit.filter(|hit| hit.front) else {
                 continue;

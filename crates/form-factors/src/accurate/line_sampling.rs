@@ -17,7 +17,7 @@ use crate::sampling::lattice::Lattice;
 use crate::sampling::patch_sampler::{PatchSampler, SamplePoints, points};
 use arrayvec::ArrayVec;
 use light::{Interval, LineLight, light};
-use radiosity_geometry::{Bundle, DVec3, FaceId, Occluders, fan};
+use radiosity_geometry::{DVec3, FaceId, Occluders, SegmentPacket, fan};
 use radiosity_simd::{Float, LANES, Simd};
 use shadows::{BlockerSides, light_in_union, shadow_of};
 
@@ -172,7 +172,7 @@ fn blocked<F: Float<f64>>(
     which: u8,
 ) -> u8 {
     let [x, y, z] = *q;
-    let bundle = Bundle {
+    let bundle = SegmentPacket {
         points: [p.lanes(), [x.lanes(), y.lanes(), z.lanes()]],
         faces: faces.map(|face| [face; LANES]),
     };

@@ -5,12 +5,12 @@ use crate::culling::convex_bound::ConvexBound;
 use crate::culling::pair_hull::PairHull;
 use crate::culling::two_sided::have_reverse;
 use crate::hemisphere::front_walls::planes_of_few;
-use radiosity_geometry::{DVec3, FaceId, Mesh, Occluders, Patch, Walls};
+use radiosity_geometry::{DVec3, FaceId, MergedFaces, Mesh, Occluders, Patch};
 use radiosity_simd::{Kernel, Simd, dispatch};
 
 /// The walls of a scene as what stands in the way. Faces here are walls.
 pub(crate) struct AllBlockers {
-    pub(crate) walls: Walls,
+    pub(crate) walls: MergedFaces,
     pub(crate) occluders: Occluders,
     /// Of each wall, whether it is made of two faces in one place, each the reverse of the other.
     pub(crate) two_sided: Vec<bool>,
@@ -30,7 +30,7 @@ pub(crate) enum Blockers {
 
 impl AllBlockers {
     pub(crate) fn new(mesh: &Mesh) -> AllBlockers {
-        let walls = Walls::new(mesh);
+        let walls = MergedFaces::new(mesh);
         let occluders = Occluders::of_walls(&walls);
         let blockers: Vec<Blocker> = walls.polygons.iter().map(Blocker::new).collect();
         let tolerance = occluders.plane_tolerance();

@@ -1,6 +1,6 @@
 //! Which walls are made of two faces in one place, each the reverse of the other.
 
-use radiosity_geometry::{DVec3, Face, Mesh, Walls};
+use radiosity_geometry::{DVec3, Face, MergedFaces, Mesh};
 use std::collections::HashMap;
 
 /// Cells that faces are looked up in are so many times as large as the rounding of coordinates.
@@ -8,7 +8,7 @@ const CELL: f64 = 1000.0;
 
 /// Of each wall, whether every face of it has a reverse: a face with the same corners, up to
 /// `tolerance`, that faces the other way.
-pub(crate) fn have_reverse(mesh: &Mesh, walls: &Walls, tolerance: f64) -> Vec<bool> {
+pub(crate) fn have_reverse(mesh: &Mesh, walls: &MergedFaces, tolerance: f64) -> Vec<bool> {
     let mut places: HashMap<[i64; 3], Vec<&Face>> = HashMap::new();
     for face in &mesh.faces {
         let cell = cell_of(middle(face), tolerance);

@@ -2,7 +2,7 @@
 
 use crate::culling::convex_bound::ConvexBound;
 use arrayvec::ArrayVec;
-use radiosity_geometry::{DVec3, Face, FaceId, Grid, Mesh, Walls};
+use radiosity_geometry::{DVec3, Face, FaceId, Grid, MergedFaces, Mesh};
 use radiosity_simd::LANES;
 use std::ops::Range;
 
@@ -38,7 +38,7 @@ pub(crate) struct Tiling {
 }
 
 impl Tiling {
-    pub(crate) fn new(mesh: &Mesh, walls: &Walls) -> Tiling {
+    pub(crate) fn new(mesh: &Mesh, walls: &MergedFaces) -> Tiling {
         let mut tiling = Tiling::default();
         let mut small = ArrayVec::new();
         for (k, face) in mesh.faces.iter().enumerate() {
@@ -80,7 +80,7 @@ impl Tiling {
     }
 
     /// Patches of small faces, which this leaves empty.
-    fn push_small(&mut self, mesh: &Mesh, walls: &Walls, small: &mut ArrayVec<usize, LANES>) {
+    fn push_small(&mut self, mesh: &Mesh, walls: &MergedFaces, small: &mut ArrayVec<usize, LANES>) {
         let patches = std::mem::take(small);
         let Some(&first) = patches.first() else {
             return;

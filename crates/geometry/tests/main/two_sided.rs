@@ -56,7 +56,9 @@ fn walls_of_two_faces_show_their_fronts() {
                 let face = &mesh.faces[side];
                 let start = face.polygon.bilinear(u, v);
                 let down = Ray::new(start, mesh.faces[2].polygon.centroid() - start);
-                let hit = occluders.first_from(FaceId(side as u32), &down).unwrap();
+                let hit = occluders
+                    .closest_hit_from(FaceId(side as u32), &down)
+                    .unwrap();
                 assert!(hit.front && hit.backed && hit.face.index() >= 2, "{hit:?}");
             }
         }

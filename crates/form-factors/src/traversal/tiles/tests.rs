@@ -39,7 +39,7 @@ fn every_patch_is_in_one_tile_and_groups_keep_order() {
         surface(rectangle(5.0, 1.0), 7, 9),
     ];
     let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
-    let tiling = Tiling::new(&mesh, &Walls::new(&mesh));
+    let tiling = Tiling::new(&mesh, &MergedFaces::new(&mesh));
     let mut seen = vec![false; mesh.patches.len()];
     let mut next = 0;
     for group in &tiling.groups {
@@ -67,7 +67,7 @@ fn row_runs_hold_consecutive_patches() {
         surface(row_run(), 2, 2),
     ];
     let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
-    let tiling = Tiling::new(&mesh, &Walls::new(&mesh));
+    let tiling = Tiling::new(&mesh, &MergedFaces::new(&mesh));
     let (mut tile, mut patch) = (0, 0);
     for row_run in &tiling.row_runs {
         assert_eq!((row_run.tiles.start, row_run.patches.start), (tile, patch));
@@ -89,7 +89,7 @@ fn blocks_waste_few_lanes_and_are_compact() {
     let tiles = |a: f64, b: f64, along_a: u32, along_b: u32| {
         let surfaces = [surface(rectangle(a, b), along_a, along_b)];
         let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
-        Tiling::new(&mesh, &Walls::new(&mesh)).tiles
+        Tiling::new(&mesh, &MergedFaces::new(&mesh)).tiles
     };
     let second = |tiles: &[Tile]| tiles[0].patches[1..3].to_vec();
     assert_eq!(tiles(1.0, 1.0, 12, 12).len(), 18);
@@ -105,7 +105,7 @@ fn tiles_of_slivers_are_around_them() {
         let triangle = [DVec3::ZERO, DVec3::X, DVec3::new(0.4, height, 0.0)];
         let surfaces = [surface(Shape::Triangle(triangle), 3, 3)];
         let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
-        for tile in Tiling::new(&mesh, &Walls::new(&mesh)).tiles {
+        for tile in Tiling::new(&mesh, &MergedFaces::new(&mesh)).tiles {
             let bounds = tile.bound.bounds().grown(1e-15);
             assert!(corners(&mesh, &tile.patches).all(|corner| bounds.contains(corner)));
             assert!(bounds.extent().y < 2.0 * height);
@@ -116,7 +116,7 @@ fn tiles_of_slivers_are_around_them() {
 #[test]
 fn small_faces_share_tiles() {
     let mesh = subdivide(&[surface(row_run(), 2, 2)], Divisions::uniform(1)).unwrap();
-    let tiles = Tiling::new(&mesh, &Walls::new(&mesh)).tiles;
+    let tiles = Tiling::new(&mesh, &MergedFaces::new(&mesh)).tiles;
     assert_eq!(tiles.len(), 5);
     assert!(tiles[0].bound.face.is_none());
     assert!(tiles[4].bound.face.is_some());

@@ -7,7 +7,7 @@
 //! JCGT 2013).
 
 use crate::bounds::Aabb;
-use crate::ray::Ray;
+use crate::rays::ray::Ray;
 use glam::{DVec3, Vec3};
 use radiosity_simd::{Float, LANES, Simd};
 

@@ -9,11 +9,11 @@
 //! Long because: the candidates, the test and the order of layers are one search.
 
 use crate::bounds::Aabb;
+use crate::coplanar::merged_faces::{edges, key};
+use crate::coplanar::remainder::{overlap, remainder};
 use crate::mesh::{Face, FaceId, Patch};
-use crate::occluders::plane_tolerance;
 use crate::polygon::Polygon;
-use crate::remainder::{overlap, remainder};
-use crate::walls::{edges, key};
+use crate::rays::occluders::plane_tolerance;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;

@@ -4,10 +4,10 @@
 //! The boxes are in single precision, relative to the centre of the scene and rounded outwards.
 //! A leaf holds up to eight items; what they are is the visitor's business.
 
-use crate::build::MAX_DEPTH;
-use crate::ray::Ray;
-use crate::shaft::Shaft;
-use crate::slabs::{Boxes, Frame};
+use crate::rays::bvh_build::MAX_DEPTH;
+use crate::rays::ray::Ray;
+use crate::rays::shaft::Shaft;
+use crate::rays::slabs::{Boxes, Frame};
 use arrayvec::ArrayVec;
 use radiosity_simd::{LANES, Simd};
 use std::ops::ControlFlow;

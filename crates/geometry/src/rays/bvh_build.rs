@@ -2,8 +2,8 @@
 //! Bounding Volume Hierarchies", 2007), the largest parts split until a node has eight children.
 
 use crate::bounds::Aabb;
-use crate::bvh::{Bvh, Child, FEW_LEAVES, Leaf, Node};
-use crate::slabs::{Boxes, Frame};
+use crate::rays::bvh::{Bvh, Child, FEW_LEAVES, Leaf, Node};
+use crate::rays::slabs::{Boxes, Frame};
 use arrayvec::ArrayVec;
 use glam::DVec3;
 use radiosity_simd::LANES;

@@ -11,7 +11,7 @@ mod face;
 use crate::bounds::Aabb;
 use crate::camera::Camera;
 use crate::mesh::{FaceId, Mesh};
-use crate::occluders::plane_tolerance;
+use crate::rays::occluders::plane_tolerance;
 use face::Viewed;
 pub use face::{Linear, SeenFace};
 use glam::DVec2;

@@ -1,10 +1,10 @@
 //! What can stand between two parts of the scene, found once for many segments.
 
 use crate::bounds::Aabb;
-use crate::bvh::ShaftVisitor;
 use crate::mesh::FaceId;
-use crate::occluders::{Occluders, ordered};
-use crate::shaft::Shaft;
+use crate::rays::bvh::ShaftVisitor;
+use crate::rays::occluders::{Occluders, ordered};
+use crate::rays::shaft::Shaft;
 use glam::DVec3;
 use radiosity_simd::{Kernel, Simd, dispatch};
 use std::ops::ControlFlow;

@@ -3,7 +3,7 @@
 mod mitchell;
 
 use crate::camera::Camera;
-use crate::ray::Ray;
+use crate::rays::ray::Ray;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 

@@ -2,8 +2,8 @@
 //! all faces.
 
 use super::*;
-use crate::bundle::{BlockedOf, Bundle};
-use crate::occluders::{Occluder, ordered};
+use crate::rays::occluders::{Occluder, ordered};
+use crate::rays::segment_packet::{BlockedOf, SegmentPacket};
 use crate::{Divisions, Mesh, PolygonMesh, Shape, Surface, subdivide};
 use proptest::prelude::*;
 use radiosity_simd::{InstructionSet, LANES};
@@ -120,7 +120,7 @@ fn check_bundle(occluders: &Occluders, segments: &[(DVec3, DVec3)], except: [Fac
     let lanes = |end: fn(&(DVec3, DVec3)) -> DVec3| {
         std::array::from_fn(|axis| std::array::from_fn(|lane| end(&segments[lane])[axis]))
     };
-    let bundle = Bundle {
+    let bundle = SegmentPacket {
         points: [lanes(|ends| ends.0), lanes(|ends| ends.1)],
         faces: except.map(|face| [face; LANES]),
     };

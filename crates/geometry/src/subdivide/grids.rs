@@ -2,10 +2,10 @@
 
 use crate::discretization::Divisions;
 use crate::mesh::{Grid, SurfaceId};
-use crate::narrow::NarrowGrid;
 use crate::polygon::Polygon;
 use crate::polygon_mesh::split_quad;
 use crate::shape::Shape;
+use crate::subdivide::narrow::NarrowGrid;
 use crate::subdivide::{MAX_PATCHES, MeshError, Surface};
 
 /// A polygon, or its halves, with their grids: a quad of a mesh is halved where its own grid would

@@ -2,7 +2,7 @@
 //! Radiosity", 1991): what a segment from one to the other may meet.
 
 use crate::bounds::Aabb;
-use crate::slabs::{Boxes, Frame};
+use crate::rays::slabs::{Boxes, Frame};
 use arrayvec::ArrayVec;
 use glam::DVec3;
 use radiosity_simd::{Float, Simd};

@@ -1,7 +1,7 @@
 //! Eight faces side by side: what a ray meets in a leaf.
 
-use crate::occluders::Occluder;
-use crate::ray::Ray;
+use crate::rays::occluders::Occluder;
+use crate::rays::ray::Ray;
 use glam::DVec3;
 use radiosity_simd::{Float, LANES, Simd};
 

@@ -4,8 +4,8 @@
 //! boxes, whichever is less: neighbours share the upper nodes, and below segments go their own
 //! ways.
 
-use crate::bvh::{Bvh, Child, Leaf, STACK, bits};
-use crate::slabs::{Boxes, Frame, LARGEST, RELATIVE_ERROR};
+use crate::rays::bvh::{Bvh, Child, Leaf, STACK, bits};
+use crate::rays::slabs::{Boxes, Frame, LARGEST, RELATIVE_ERROR};
 use arrayvec::ArrayVec;
 use radiosity_simd::{Float, LANES, Simd};
 

@@ -3,14 +3,14 @@
 
 use crate::bounds::Aabb;
 use crate::mesh::{Face, FaceId, Mesh};
-use crate::occluders::plane_tolerance;
 use crate::polygon::Polygon;
+use crate::rays::occluders::plane_tolerance;
 use glam::DVec3;
 use std::collections::HashMap;
 
 /// Polygons that cover the same points as the faces of a mesh do, with the same fronts.
 #[derive(Clone, Debug)]
-pub struct Walls {
+pub struct MergedFaces {
     /// The polygons; a [`FaceId`] is the position in this list where walls are meant.
     pub polygons: Vec<Polygon>,
     /// The wall that each face of the mesh is part of.
@@ -22,10 +22,10 @@ pub struct Walls {
 /// Edges that part by this angle at most run on. (That planes are the same is a matter of heights.)
 const STRAIGHT: f64 = 1e-9;
 
-impl Walls {
+impl MergedFaces {
     /// Joins faces that share an edge, lie in one plane and face the same way, as long as that
     /// gives a convex triangle or quadrilateral. Bare faces are joined to bare ones only.
-    pub fn new(mesh: &Mesh) -> Walls {
+    pub fn new(mesh: &Mesh) -> MergedFaces {
         let polygons = mesh.faces.iter().map(|face| face.polygon).collect();
         let bare = mesh.faces.iter().map(Face::is_bare).collect();
         let mut joining = Joining::new(polygons, bare);
@@ -109,7 +109,7 @@ impl Joining {
         }
     }
 
-    fn finish(self) -> Walls {
+    fn finish(self) -> MergedFaces {
         let mut places = vec![FaceId(0); self.polygons.len()];
         let (mut polygons, mut bare) = (Vec::new(), Vec::new());
         for (k, place) in places.iter_mut().enumerate() {
@@ -124,7 +124,7 @@ impl Joining {
             std::iter::successors(Some(k), next).last().unwrap_or(k)
         };
         let of_face = (0..places.len()).map(|k| places[whole(k)]).collect();
-        Walls {
+        MergedFaces {
             polygons,
             of_face,
             bare,

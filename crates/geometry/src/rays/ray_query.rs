@@ -1,9 +1,9 @@
 //! The questions that rays put to the tree of faces, for any instruction set.
 
-use crate::bvh::{Visitor, bits};
 use crate::mesh::FaceId;
-use crate::occluders::{Hit, Occluders};
-use crate::ray::Ray;
+use crate::rays::bvh::{Visitor, bits};
+use crate::rays::occluders::{Hit, Occluders};
+use crate::rays::ray::Ray;
 use glam::DVec3;
 use radiosity_simd::{Kernel, Simd};
 use std::ops::ControlFlow;
@@ -158,7 +158,7 @@ impl Visitor for AnyHit<'_> {
 }
 
 impl<'a> Blocked<'a> {
-    /// `ends` in the order of [`ordered`](crate::occluders::ordered).
+    /// `ends` in the order of [`ordered`](crate::rays::occluders::ordered).
     pub(crate) fn new(
         occluders: &'a Occluders,
         except: [FaceId; 2],

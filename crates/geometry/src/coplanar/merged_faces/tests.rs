@@ -32,7 +32,7 @@ fn grid(a: u32, b: u32, triangles: bool, left_out: &[(u32, u32)]) -> Mesh {
 }
 
 fn check(mesh: &Mesh, expected: usize) {
-    let walls = Walls::new(mesh);
+    let walls = MergedFaces::new(mesh);
     assert_eq!(walls.polygons.len(), expected);
     let area: f64 = walls.polygons.iter().map(Polygon::area).sum();
     assert!((area - mesh.total_area()).abs() < 1e-12 * area);

@@ -1,14 +1,14 @@
 //! What rays and segments meet: closest hits for pictures, any hits for visibility.
 
 use crate::bounds::Aabb;
-use crate::build::build;
-use crate::bvh::Bvh;
-use crate::face_block::FaceBlock;
+use crate::coplanar::merged_faces::MergedFaces;
 use crate::mesh::{Face, FaceId, Mesh};
 use crate::polygon::Polygon;
-use crate::queries::{Blocked, Reach};
-use crate::ray::Ray;
-use crate::walls::Walls;
+use crate::rays::bvh::Bvh;
+use crate::rays::bvh_build::build;
+use crate::rays::face_block::FaceBlock;
+use crate::rays::ray::Ray;
+use crate::rays::ray_query::{Blocked, Reach};
 use glam::DVec3;
 use radiosity_simd::dispatch;
 
@@ -104,7 +104,7 @@ impl Occluders {
     }
 
     /// Prepares walls; a [`FaceId`] is then a wall's.
-    pub fn of_walls(walls: &Walls) -> Occluders {
+    pub fn of_walls(walls: &MergedFaces) -> Occluders {
         Occluders::of(&walls.polygons, &walls.bare)
     }
 
@@ -157,7 +157,7 @@ impl Occluders {
 
     /// The first face that a ray from a point of a face meets. The face itself and others in its
     /// plane are not met: rounding may put the point on either side of them.
-    pub fn first_from(&self, face: FaceId, ray: &Ray) -> Option<Hit> {
+    pub fn closest_hit_from(&self, face: FaceId, ray: &Ray) -> Option<Hit> {
         let from = self.in_plane(face, ray);
         self.closest_hit(ray, from, f64::INFINITY, Some(face))
     }

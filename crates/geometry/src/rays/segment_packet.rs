@@ -1,11 +1,11 @@
 //! Eight segments at a time: what blocks each of them.
 
-use crate::bvh::bits;
-use crate::face_block::around_origin;
 use crate::mesh::FaceId;
-use crate::occluders::{Occluder, Occluders, ordered};
-use crate::queries::Blocked;
-use crate::together::SegmentsVisitor;
+use crate::rays::bvh::bits;
+use crate::rays::bvh_packet::SegmentsVisitor;
+use crate::rays::face_block::around_origin;
+use crate::rays::occluders::{Occluder, Occluders, ordered};
+use crate::rays::ray_query::Blocked;
 use glam::DVec3;
 use radiosity_simd::{Float, Kernel, LANES, Simd, dispatch};
 
@@ -14,7 +14,7 @@ pub type Points = [[f64; LANES]; 3];
 
 /// Eight segments between points of faces.
 #[derive(Clone, Copy, Debug)]
-pub struct Bundle {
+pub struct SegmentPacket {
     /// Where they begin, and where they end.
     pub points: [Points; 2],
     /// The faces on which they begin and end, which do not block them.
@@ -24,7 +24,7 @@ pub struct Bundle {
 impl Occluders {
     /// [`Occluders::blocked`] for those segments of a bundle whose bits are set: the same answers,
     /// one bit each.
-    pub fn blocked_of(&self, bundle: &Bundle, wanted: u8) -> u8 {
+    pub fn blocked_of(&self, bundle: &SegmentPacket, wanted: u8) -> u8 {
         dispatch(BlockedOf {
             occluders: self,
             bundle,
@@ -35,7 +35,7 @@ impl Occluders {
 
 pub(crate) struct BlockedOf<'a> {
     pub(crate) occluders: &'a Occluders,
-    pub(crate) bundle: &'a Bundle,
+    pub(crate) bundle: &'a SegmentPacket,
     pub(crate) wanted: u8,
 }
 
@@ -67,7 +67,7 @@ impl BlockedOf<'_> {
     /// Which of these segments nothing blocks, each traced by itself.
     #[inline(always)]
     fn alone<S: Simd>(&self, simd: S, lanes: u8) -> u8 {
-        let Bundle { points, faces } = self.bundle;
+        let SegmentPacket { points, faces } = self.bundle;
         let mut open = lanes;
         for lane in bits(lanes) {
             let [p, q] = points.map(|ends| DVec3::from_array(ends.map(|axis| axis[lane])));
@@ -80,7 +80,7 @@ impl BlockedOf<'_> {
     }
 }
 
-/// [`Ray`](crate::ray::Ray)s from one end to the other, each from its first end in order.
+/// [`Ray`](crate::rays::ray::Ray)s from one end to the other, each from its first end in order.
 struct Segments {
     first: Points,
     last: Points,
@@ -133,7 +133,7 @@ fn in_order<S: Simd>(simd: S, from: &Points, to: &Points) -> u8 {
 
 struct Search<'a> {
     occluders: &'a Occluders,
-    bundle: &'a Bundle,
+    bundle: &'a SegmentPacket,
     segments: Segments,
 }
 
@@ -177,7 +177,7 @@ impl Search<'_> {
         cut & candidates
     }
 
-    /// [`Ray::pierces`](crate::ray::Ray) for the segments along an axis.
+    /// [`Ray::pierces`](crate::rays::ray::Ray) for the segments along an axis.
     #[inline(always)]
     fn pierced<S: Simd>(&self, simd: S, face: &Occluder, axis: usize) -> u8 {
         let [a, b, c, d] = &face.corners;
