@@ -1,6 +1,7 @@
 //! How form factors are estimated, on the command line.
 
 use super::choices::{MODES, choice};
+use super::parse::parse_number;
 use super::scene_args::set;
 use super::site::Site;
 use super::terminal::tell;
@@ -44,7 +45,7 @@ pub struct FactorArgs {
     ///
     /// It is the sum of the absolute errors of all form factors from a patch. Scenes of View3D have
     /// a default of 5e-4.
-    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", value_parser = parse_number, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
     /// Seed of the random points of monte-carlo [default: the scene's, or 0]
     #[arg(long, value_name = "N")]

@@ -63,6 +63,13 @@ fn check_arguments(path: &Path, args: &FormFactorsCommand) -> Result<(), Error> 
             "leave it out, or export to a path that ends in .csv",
         ));
     }
+    let name = path.file_stem().unwrap_or_default().to_string_lossy();
+    if name.to_lowercase().ends_with(".rows") {
+        return Err(Error::with_help(
+            "a table that ends in .rows.csv is written beside the matrix, and would not be one",
+            "give the matrix another name",
+        ));
+    }
     check_folder_of(path)
 }
 

@@ -19,11 +19,16 @@ use std::path::Path;
 const LONGEST_BAR: f64 = 40.0;
 
 pub(super) fn run(args: &InspectCommand, site: &Site) -> Result<(), Error> {
-    let path = &args.file;
+    // A name alone, as `cache list` gives it, is that of a file in the cache.
+    let cached = site.cache.join(&args.file);
+    let path = match args.file.exists() || !cached.is_file() {
+        true => &args.file,
+        false => &cached,
+    };
     let unusable = |miss: Miss| unusable(path, &miss);
     check_regular(path)?;
     let opened = open(path).map_err(unusable)?;
-    let names = surface_names(args, site)?;
+    let names = surface_names(path, args, site)?;
     let inspection = Inspection::of(opened, names.as_deref()).map_err(unusable)?;
     if args.json {
         return say_json(&inspection);
@@ -66,10 +71,14 @@ fn unusable(path: &Path, miss: &Miss) -> Error {
 
 /// The names of the scene's surfaces, if it is there and can be read: the one that was named, or
 /// the one that used the file last.
-fn surface_names(args: &InspectCommand, site: &Site) -> Result<Option<Vec<String>>, Error> {
+fn surface_names(
+    path: &Path,
+    args: &InspectCommand,
+    site: &Site,
+) -> Result<Option<Vec<String>>, Error> {
     let scene = match &args.scene {
         Some(scene) => Some(site.load(scene, args.outside)?),
-        None => last_user(&args.file).and_then(|name| site.load(name.as_ref(), args.outside).ok()),
+        None => last_user(path).and_then(|name| site.load(name.as_ref(), args.outside).ok()),
     };
     let names = |project: radiosity::Project| {
         let surfaces = project.scene.surfaces.into_iter();
@@ -98,7 +107,7 @@ fn factor_lines(found: &FactorInspection) -> Vec<String> {
     lines.extend(classes.map(|c| indented(&class_line(c, found.patches))));
     lines.push(labelled(
         "closure",
-        "rows by |fronts + backs + outside - 1|",
+        "rows by |fronts + backs + background - 1|",
     ));
     lines.extend(histogram(&found.off_by).iter().map(|line| indented(line)));
     lines.extend(
@@ -132,7 +141,8 @@ fn worst_line(row: &WorstRow) -> String {
         .error
         .map_or(String::new(), |error| format!(" +- {error:.1e}"));
     format!(
-        "{:+.1e} in row {}, `{}`: fronts {:.6}{error}, backs {:.4}, outside {:.4}, both +- {:.0e}",
+        "{:+.1e} in row {}, `{}`: fronts {:.6}{error}, backs {:.4}, background {:.4}, both +- \
+         {:.0e}",
         row.excess,
         row.row,
         row.surface,

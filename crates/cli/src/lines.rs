@@ -49,10 +49,20 @@ pub(crate) fn closure_line(rows: &RowSummary) -> Option<String> {
         );
     }
     Some(format!(
-        "rows that see fronts alone were scaled to sum to 1: factors changed by {:.1e} of \
-         themselves at most",
+        "rows that see fronts alone were scaled to sum to 1: no factor changed by more than {:.1e} \
+         of its value",
         closure.largest_change
     ))
+}
+
+/// That nothing sees anything, but for the backs of surfaces.
+pub(crate) fn blind_line(rows: &RowSummary) -> Option<String> {
+    let is_blind = rows.mean == 0.0 && rows.max_error > 0.0 && rows.backs > 0.0;
+    is_blind.then(|| {
+        "warning: no patch sees a front, and all form factors are 0: surfaces face the other way \
+         where the order of their corners is reversed"
+            .to_owned()
+    })
 }
 
 /// The estimated errors of rows, if the estimator tells.

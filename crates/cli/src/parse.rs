@@ -41,6 +41,11 @@ pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
     }
 }
 
+pub(super) fn parse_number(text: &str) -> Result<f64, String> {
+    let number = text.parse();
+    number.map_err(|_| "expected a number like 0.001".to_owned())
+}
+
 pub(super) fn parse_positive(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(x) if x > 0.0 && f64::is_finite(x) => Ok(x),

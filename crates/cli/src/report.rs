@@ -2,13 +2,14 @@
 
 use crate::error::Error;
 use crate::lines::{
-    class_line, closed_line, closure_line, error_line, indented, labelled, missed_line, row_line,
-    scene_line, unbalanced_lines,
+    blind_line, class_line, closed_line, closure_line, error_line, indented, labelled, missed_line,
+    row_line, scene_line, unbalanced_lines,
 };
 use crate::save::Written;
 use crate::solve_report::{SolveReport, solution_lines};
 use crate::terminal::{Terminal, say_json};
 use radiosity::darkness;
+use radiosity::geometry::Face;
 use radiosity::openings;
 use radiosity::stages::{Dimming, Factors, Patches, Solved};
 use radiosity::words::{bytes, grouped};
@@ -93,14 +94,18 @@ impl<'a> Report<'a> {
         let patches = factors.patches();
         let (scene, mesh) = (patches.scene(), &patches.mesh);
         self.stage_line("form factors", origin);
-        let closed = scene.closed.then(|| closed_line(rows));
+        // What only blocks takes a share of each row, which no factor has.
+        let has_obstructions = mesh.faces.iter().any(Face::is_bare);
+        let closed = (scene.closed && !has_obstructions).then(|| closed_line(rows));
         let classes = rows.classes.as_ref();
         let classes = classes.map(|classes| class_line(classes, mesh.patches.len()));
         let details = [Some(row_line(rows)), error_line(rows), closed, classes];
         for line in details.into_iter().flatten() {
             self.terminal.detail(&indented(&line));
         }
-        for line in missed_line(rows).into_iter().chain(closure_line(rows)) {
+        let lines = missed_line(rows).into_iter().chain(closure_line(rows));
+        let blind = blind_line(rows).filter(|_| !has_obstructions);
+        for line in lines.chain(blind) {
             self.terminal.line(&indented(&line));
         }
         if scene.closed && openings::show_in_rows(rows) {

@@ -2,6 +2,7 @@
 
 use super::choices::{METHODS, choice};
 use super::parse::number_or_word;
+use super::parse::parse_number;
 use super::scene_args::set;
 use super::terminal::tell;
 use clap::Args;
@@ -25,7 +26,7 @@ pub struct SolveArgs {
     )]
     pub relaxation: Option<Relaxation>,
     /// Relative residual at which the solver stops [default: the scene's, or 1e-6]
-    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", value_parser = parse_number, allow_negative_numbers = true)]
     pub residual: Option<f64>,
     /// Most passes over the matrix to take [default: the scene's, or 200]
     #[arg(long, value_name = "N")]

@@ -52,7 +52,7 @@ pub use traversal::begun_rows::BegunRows;
 
 /// Raise it whenever the same mesh would give other form factors, because of a change here, in
 /// `geometry`, or in the random numbers: it is part of their key.
-pub const VERSION: u32 = 16;
+pub const VERSION: u32 = 17;
 
 /// What is known of one row of the form factor matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -70,7 +70,8 @@ pub struct RowFacts {
     /// The share of the patch's area that can be seen: points that see nearly nothing but backs are
     /// inside of something, or covered. By rays, to a percent.
     pub visible: f64,
-    /// The estimated sum of the absolute errors of the row's factors, if the estimator tells.
+    /// The estimated sum of the absolute errors of the row's factors, rounding to single precision
+    /// included, if the estimator tells.
     pub error: Option<f64>,
     /// The part of `error` that is left although more was asked for: of pairs that have used up
     /// all of their samples. No tolerance lowers it.
@@ -113,7 +114,8 @@ impl FormFactors {
             background: hemispheres[i].background,
             rays_error: hemispheres[i].error,
             visible: hemispheres[i].visible,
-            error: errors.as_ref().map(|errors| errors.estimated[i]),
+            error: (errors.as_ref())
+                .map(|errors| errors.estimated[i] + ROUNDING * quotient(fronts[i], areas[i])),
             missed: errors.as_ref().map_or(0.0, |errors| errors.missed[i]),
         };
         let rows: Vec<RowFacts> = (0..areas.len()).map(row).collect();
@@ -174,6 +176,9 @@ impl FormFactors {
         shares.map(|share| share as f32).collect()
     }
 }
+
+/// What single precision rounds off a stored number, relative to it.
+const ROUNDING: f64 = 1.0 / (1 << 24) as f64;
 
 /// What an area has of something; nothing if it is no area.
 pub(crate) fn quotient(whole: f64, area: f64) -> f64 {

@@ -14,7 +14,7 @@ pub enum ShapeError {
     /// The four corners of a quadrilateral do not lie in one plane.
     #[error(
         "is not planar: its corners lie {deviation:.1e} of its diagonal off their mean plane \
-         (at most {PLANARITY:.0e} is allowed); use two triangles"
+         (at most {PLANARITY:.0e} is allowed); give coordinates more digits, or use two triangles"
     )]
     NotPlanar {
         /// Distance of the corners from the mean plane, relative to the longer diagonal.

@@ -200,7 +200,10 @@ impl FactorInspection {
             let surface = facts.surface_of(patch);
             WorstRow {
                 row: facts.exported_as[patch],
-                surface: names.map_or(format!("surface {surface}"), |names| names[surface].clone()),
+                surface: names.map_or_else(
+                    || format!("surface {}", surface + 1),
+                    |names| names[surface].clone(),
+                ),
                 excess: excess(&facts.rows[patch]),
                 facts: facts.rows[patch],
             }

@@ -84,21 +84,31 @@ pub fn warnings(scene: &Scene, mesh: &Mesh) -> Vec<String> {
     let edges = Edges::of(mesh);
     let Turned { fewer, either } = Turned::of(mesh, &edges);
     let open = gaps::open(mesh, &edges);
-    let told = |faces: &[usize]| (!faces.is_empty()).then(|| named(names(scene, mesh, faces)));
+    // The names, and the verbs of one surface or of several.
+    let told = |faces: &[usize]| {
+        let names = names(scene, mesh, faces);
+        let is_one = names.len() == 1;
+        let verb = if is_one { "faces" } else { "face" };
+        let neighbours = if is_one {
+            "its neighbours"
+        } else {
+            "their neighbours"
+        };
+        (!faces.is_empty()).then(|| (named(names), verb, neighbours))
+    };
     let faults = [
-        told(&fewer).map(|names| {
+        told(&fewer).map(|(names, verb, neighbours)| {
             format!(
-                "{names} face the other way than their neighbours: reverse the order of their \
-                 corners"
+                "{names} {verb} the other way than {neighbours}: reverse the order of the corners"
             )
         }),
-        told(&either).map(|names| {
+        told(&either).map(|(names, verb, neighbours)| {
             format!(
-                "{names} face the other way than their neighbours: reverse the order of the \
-                 corners of those that face outwards"
+                "{names} {verb} the other way than {neighbours}: reverse the order of the corners \
+                 of those that face outwards"
             )
         }),
-        told(&open).map(|names| {
+        told(&open).map(|(names, ..)| {
             format!(
                 "edges of {names} have no neighbour: a surface is missing there, or corners do \
                  not meet"

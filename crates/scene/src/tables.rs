@@ -206,5 +206,13 @@ pub(crate) fn error_of(
     place: Range<usize>,
 ) -> SceneError {
     let complaint = Complaint::new("cannot read this scene", error.message());
+    let is_toml = source
+        .path
+        .extension()
+        .is_some_and(|ending| ending == "toml");
+    let complaint = match is_toml {
+        true => complaint,
+        false => complaint.help("a file whose name does not end in .vs3 is read as TOML"),
+    };
     source.error(error.span().unwrap_or(place), &complaint)
 }

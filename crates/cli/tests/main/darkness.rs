@@ -196,7 +196,7 @@ fn closed_scenes_with_holes_or_turned_walls_are_told() {
     place.write("box.vs3", &scene(&walls));
     let found = run(&place);
     assert!(
-        found.contains("`lid` face the other way than their neighbours"),
+        found.contains("`lid` faces the other way than its neighbours"),
         "{found}"
     );
 }

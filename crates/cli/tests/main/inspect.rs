@@ -21,7 +21,7 @@ fn form_factors_are_described() {
     for part in [
         "no byte is damaged",
         "accurate, tolerance 0.01; 17 patches of 4 surfaces",
-        "rows by |fronts + backs + outside - 1|",
+        "rows by |fronts + backs + background - 1|",
         "worst rows",
         "in row ",
     ] {

@@ -32,7 +32,9 @@ pub(super) struct Edges {
 impl Edges {
     pub(super) fn of(mesh: &Mesh) -> Edges {
         let mut sides: HashMap<[[u64; 3]; 2], Vec<Side>> = HashMap::new();
-        for (index, face) in mesh.faces.iter().enumerate() {
+        // What only blocks bounds no space, and faces neither way.
+        let faces = mesh.faces.iter().enumerate();
+        for (index, face) in faces.filter(|(_, face)| !face.is_bare()) {
             let corners = face.polygon.corners();
             for (corner, &from) in corners.iter().enumerate() {
                 let ends = [from, corners[(corner + 1) % corners.len()]].map(bits);

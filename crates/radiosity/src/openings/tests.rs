@@ -121,7 +121,7 @@ fn of_a_turned_lid_the_walls_are_not_named() {
     assert_eq!(
         only(&warned),
         "`lid-1`, `lid-2`, `lid-3`, `lid-4` face the other way than their neighbours: reverse the \
-         order of their corners"
+         order of the corners"
     );
 }
 
@@ -153,7 +153,7 @@ fn turned_faces_and_holes_are_both_told() {
     let warned = warned(&faces, &[]);
     assert_eq!(warned.len(), 2, "{warned:?}");
     assert!(
-        warned[0].contains("`left` face the other way"),
+        warned[0].contains("`left` faces the other way"),
         "{warned:?}"
     );
     assert!(

@@ -207,7 +207,7 @@ impl File {
                 None if number == 0 && position == 4 => {}
                 None => {
                     let title = format!("there is no vertex {number}");
-                    let help = "vertices (V) come before the surfaces that they are corners of";
+                    let help = "correct the number, or write the vertex (V) before this line";
                     return Err(words.error(&title, "this surface", help));
                 }
             }
@@ -265,9 +265,12 @@ impl<'a> Words<'a> {
     }
 
     fn number<T: FromStr>(&mut self, what: &str) -> Result<T, SceneError> {
-        let word = self.words.next().unwrap_or("nothing");
-        word.parse().map_err(|_| {
-            let title = format!("expected {what}, found `{word}`");
+        let word = self.words.next();
+        word.and_then(|word| word.parse().ok()).ok_or_else(|| {
+            let title = match word {
+                Some(word) => format!("expected {what}, found `{word}`"),
+                None => format!("the line ends before {what}"),
+            };
             let help = "fields are: V n x y z; S n v1 v2 v3 v4 base cmb emit name; O likewise";
             self.error(&title, "in this line", help)
         })
