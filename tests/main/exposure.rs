@@ -20,7 +20,13 @@ impl Shot {
     fn of(project: &Project) -> Shot {
         let chain = Chain::of(project);
         let (camera, light) = (project.scene.camera.unwrap(), chain.light());
-        let image = expose(chain.patches, &light, &[camera], &project.params.image);
+        let image = expose(
+            chain.patches,
+            &light,
+            &[camera],
+            &project.params.image,
+            &[Shading::Smooth],
+        );
         Shot {
             chain,
             camera,

@@ -22,7 +22,13 @@ fn check(scene: &str, divisions: u32, points: u32) {
     let chain = Chain::of(&project);
     let camera = project.scene.first_camera().unwrap();
     let light = chain.light();
-    let image = expose(chain.patches, &light, &[camera], &project.params.image);
+    let image = expose(
+        chain.patches,
+        &light,
+        &[camera],
+        &project.params.image,
+        &BOTH,
+    );
     let pictures = render(chain.patches, &light, &camera, &image, &BOTH).unwrap();
     for (picture, shading) in pictures.iter().zip(["constant", "smooth"]) {
         let name = format!("{}-{shading}", project.scene.name);

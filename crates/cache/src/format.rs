@@ -58,7 +58,7 @@ pub enum Miss {
     #[error("unfinished")]
     Unfinished,
     /// The scene used a file of this stage that was made from other inputs.
-    #[error("inputs changed")]
+    #[error("nothing cached for these inputs")]
     InputsChanged,
     /// The file cannot be read.
     #[error("the cached file cannot be read: {0}")]

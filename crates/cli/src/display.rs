@@ -56,8 +56,9 @@ fn display(
     let light = solved.relight(&dimming)?;
     report.solution(&solved, &patches, &dimming, &light.energy);
     let start = Instant::now();
+    let shadings = args.display.shadings();
     let cameras: Vec<Camera> = shots.iter().map(|shot| shot.camera).collect();
-    let image = expose(&patches, &light, &cameras, &params.image);
+    let image = expose(&patches, &light, &cameras, &params.image, &shadings);
     let mut series = Series {
         args: &args.display,
         params: &image,

@@ -128,7 +128,7 @@ fn by_flags(remedy: &Remedy) -> String {
         Remedy::AccurateEstimator | Remedy::AccurateEstimatorOrDarker => " (--mode accurate)",
         Remedy::MoreSweeps => " (--max-sweeps)",
         Remedy::FewerPatches { .. } => {
-            " (--divisions, or a larger --max-patch-edge or `divisions` of surfaces)"
+            " (--divisions, or a larger --max-patch-edge; keys of surfaces count before flags)"
         }
         Remedy::SmallerPictures => " (--size)",
         Remedy::SmallerExport => " (--by surface, or a .csv with --sparse 1e-6)",

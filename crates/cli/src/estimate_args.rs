@@ -50,7 +50,7 @@ pub struct FactorArgs {
     /// Seed of the random points of monte-carlo [default: the scene's, or 0]
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
-    /// Scale the form factors from patches that see fronts alone to sum to 1; reciprocity is kept
+    /// Scale the form factors from patches that see only fronts to sum to 1; reciprocity is kept
     #[arg(long)]
     pub closure: bool,
 }

@@ -8,7 +8,7 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Diffuse global illumination by finite elements: form factors once, everything else at once
+/// Diffuse global illumination by finite elements: form factors once, then all else is quick
 #[derive(Debug, Parser)]
 #[command(name = "radiosity", version, after_help = radiosity_cli::EXIT_CODES)]
 struct Cli {

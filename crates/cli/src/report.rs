@@ -104,7 +104,8 @@ impl<'a> Report<'a> {
             self.terminal.detail(&indented(&line));
         }
         let lines = missed_line(rows).into_iter().chain(closure_line(rows));
-        let blind = blind_line(rows).filter(|_| !has_obstructions);
+        // Where there are lights, they tell more.
+        let blind = blind_line(rows).filter(|_| !has_obstructions && scene.lights.is_empty());
         for line in lines.chain(blind) {
             self.terminal.line(&indented(&line));
         }

@@ -153,6 +153,13 @@ pub(super) fn check_folder_of(path: &Path) -> Result<(), Error> {
 
 /// Makes the folder of a result before anything is computed for it.
 pub(super) fn make_folder(folder: &Path) -> Result<(), Error> {
+    if folder.is_file() {
+        let why = "it is a file, and pictures go into a folder; name one with -o";
+        return Err(Error::Output {
+            path: folder.to_owned(),
+            error: io::Error::new(io::ErrorKind::NotADirectory, why),
+        });
+    }
     std::fs::create_dir_all(folder).map_err(|error| Error::Output {
         path: folder.to_owned(),
         error,

@@ -92,7 +92,14 @@ impl Site {
         };
         Error::with_help(
             format!("`{}` {what}", wanted.display()),
-            format!("give the path of a scene file (.toml, .vs3), or a name: {names}"),
+            match ENDINGS
+                .map(|ending| wanted.with_extension(ending))
+                .into_iter()
+                .find(|p| p.is_file())
+            {
+                Some(path) => format!("did you mean `{}`?", path.display()),
+                None => format!("give the path of a scene file (.toml, .vs3), or a name: {names}"),
+            },
         )
     }
 

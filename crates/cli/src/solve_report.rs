@@ -141,7 +141,8 @@ fn balance_line(energy: &Energy) -> Option<String> {
     let share = sum(energy.missing()) / sum(energy.emitted);
     share.is_finite().then(|| {
         format!(
-            "these shares sum to {:.2} %: the rest is an error of the form factors, or of rays",
+            "these shares sum to {:.2} %; what they are off 100 % is an error of the form factors, \
+             or of rays",
             100.0 * (1.0 - share)
         )
     })

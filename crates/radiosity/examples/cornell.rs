@@ -13,8 +13,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let factors = estimate(&patches, &params.form_factors)?;
     let light = solve(&factors, &params.solver)?.light()?;
     let camera = scene.first_camera().ok_or("the scene has no camera")?;
-    let image = expose(&patches, &light, &[camera], &params.image);
-    let pictures = render(&patches, &light, &camera, &image, &[Shading::Smooth])?;
+    let shadings = [Shading::Smooth];
+    let image = expose(&patches, &light, &[camera], &params.image, &shadings);
+    let pictures = render(&patches, &light, &camera, &image, &shadings)?;
     save_png("cornell.png".as_ref(), &pictures[0], &image)?;
     println!("cornell.png");
     Ok(())

@@ -36,7 +36,7 @@ fn large_patch(scene: &Scene, mesh: &Mesh) -> Option<String> {
     (share > LARGE).then(|| {
         format!(
             "note: a patch of `{}` is {:.0} % of all area, and light does not change within a \
-             patch: cut surfaces into smaller ones, as `max_patch_edge = {}` does",
+             patch: cut surfaces into smaller ones, as --max-patch-edge {} does",
             scene.surfaces[largest.surface.index()].name,
             100.0 * share,
             one_digit((total / ENOUGH).sqrt())
@@ -90,7 +90,7 @@ mod tests {
         assert_eq!(told.len(), 1);
         assert!(told[0].contains("is 50 % of all area"), "{told:?}");
         // The square root of 8 / 2000 is 0.063.
-        assert!(told[0].contains("`max_patch_edge = 0.06`"), "{told:?}");
+        assert!(told[0].contains("--max-patch-edge 0.06"), "{told:?}");
         assert!(cube(2.0, 4).is_empty());
     }
 

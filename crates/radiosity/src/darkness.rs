@@ -34,8 +34,8 @@ pub fn light_lines(patches: &Patches<'_>, dimming: &Dimming, energy: &Energy) ->
             String::new()
         } else {
             format!(
-                "; lamps shine on those of {}: reverse the order of their corners, or that of the \
-                 lamps'",
+                "; lamps shine on those of {}: flip these faces, or the lamps (reverse the order \
+                 of their corners)",
                 named(lit)
             )
         };
@@ -150,8 +150,8 @@ pub fn of_picture(patches: &Patches<'_>, camera: &Camera, params: &ImageParams) 
         "the camera sees nothing: move it, or turn it to the scene".to_owned()
     } else {
         format!(
-            "the camera sees nothing but backs, of {}: move it to their other side, reverse the \
-             order of their corners, or let backs be transparent",
+            "the camera sees only backs, of {}: move the camera to the other side, flip these \
+             faces (reverse the order of their corners), or let backs be transparent",
             named(backs)
         )
     }

@@ -10,8 +10,9 @@
 //! let solved = solve(&factors, &params.solver)?;
 //! let light = solved.light()?;
 //! let camera = scene.first_camera().expect("the scene has a camera");
-//! let image = expose(&patches, &light, &[camera], &params.image);
-//! let pictures = render(&patches, &light, &camera, &image, &[Shading::Smooth])?;
+//! let shadings = [Shading::Smooth];
+//! let image = expose(&patches, &light, &[camera], &params.image, &shadings);
+//! let pictures = render(&patches, &light, &camera, &image, &shadings)?;
 //! save_png("cornell.png".as_ref(), &pictures[0], &image)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

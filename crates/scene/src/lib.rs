@@ -22,6 +22,7 @@ mod signature;
 mod source;
 mod surface;
 mod tables;
+mod toml_error;
 mod values;
 mod vs3;
 

@@ -15,7 +15,10 @@ const PACKED: &str = "unpack it";
 const EXPORT: &str = "export it as Wavefront OBJ (.obj): most modelling programs can";
 const PICTURE: &str = "scenes are read from TOML (.toml) and View3D (.vs3), meshes from OBJ (.obj)";
 
-const SIGNATURES: [(&[u8], &str, &str); 27] = [
+const LIBRARY: &str = "name the OBJ file (.obj) that it belongs to; colours are not read from it";
+const MATERIALS: &str = "a material library of an OBJ file (.mtl)";
+
+const SIGNATURES: [(&[u8], &str, &str); 28] = [
     (b"\xff\xfe", "text in UTF-16", ENCODED),
     (b"\xfe\xff", "text in UTF-16", ENCODED),
     (b"\x1f\x8b", "compressed by gzip", PACKED),
@@ -46,6 +49,7 @@ const SIGNATURES: [(&[u8], &str, &str); 27] = [
     (b"P3\n", "a PPM picture", PICTURE),
     (b"P6\n", "a PPM picture", PICTURE),
     (b"PF\n", "a PFM picture", PICTURE),
+    (b"newmtl ", MATERIALS, LIBRARY),
     (b"<", "an XML file (COLLADA, X3D or another)", EXPORT),
 ];
 
@@ -73,6 +77,11 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<Foreign> {
     }
     let start = &bytes[..bytes.len().min(LOOKED_AT)];
     let text = String::from_utf8_lossy(start);
+    let mut first = text.lines().take(1);
+    if first.any(|line| line.starts_with("# Blender") && line.contains("MTL File")) {
+        let (name, help) = (MATERIALS, LIBRARY);
+        return Some(Foreign { name, help });
+    }
     let words: Vec<&str> = text.split_whitespace().take(2).collect();
     let name = if is_binary_stl(bytes) {
         "a binary STL file"

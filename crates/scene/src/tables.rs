@@ -5,6 +5,7 @@ use crate::error::SceneError;
 use crate::file::TABLES;
 use crate::source::{Complaint, Source};
 use crate::surface::KEYS;
+use crate::toml_error::error_of;
 use radiosity_params::{OutOfRange, Parameters};
 use serde::de::IntoDeserializer;
 use std::ops::Range;
@@ -197,22 +198,4 @@ fn params<'t, P: Parameters>(
         source.error(span, &complaint)
     })?;
     Ok(params)
-}
-
-/// What TOML or serde say, at their place or at another.
-pub(crate) fn error_of(
-    source: &Source<'_>,
-    error: &toml::de::Error,
-    place: Range<usize>,
-) -> SceneError {
-    let complaint = Complaint::new("cannot read this scene", error.message());
-    let is_toml = source
-        .path
-        .extension()
-        .is_some_and(|ending| ending == "toml");
-    let complaint = match is_toml {
-        true => complaint,
-        false => complaint.help("a file whose name does not end in .vs3 is read as TOML"),
-    };
-    source.error(error.span().unwrap_or(place), &complaint)
 }

@@ -116,10 +116,10 @@ pub(super) fn none() -> Reasons {
 }
 
 pub(super) fn changed_solution() -> Reasons {
-    (None, Some("inputs changed".to_owned()))
+    (None, Some("nothing cached for these inputs".to_owned()))
 }
 
 pub(super) fn changed_both() -> Reasons {
-    let changed = Some("inputs changed".to_owned());
+    let changed = Some("nothing cached for these inputs".to_owned());
     (changed.clone(), changed)
 }

@@ -42,7 +42,7 @@ fn a_copied_scene_takes_what_the_first_made() {
     assert_eq!(of_copy.count(), 2, "the last user is named: {list}");
     let changed = place.json("render copy.toml --cache c --patches 2");
     let reason = &changed["stages"]["form_factors"]["reason"];
-    assert_eq!(reason, "inputs changed");
+    assert_eq!(reason, "nothing cached for these inputs");
 }
 
 #[test]

@@ -30,7 +30,7 @@ fn walls_turned_outwards_are_named() {
         "{found}"
     );
     assert!(
-        found.contains("is black: the camera sees nothing but backs, of `back`"),
+        found.contains("is black: the camera sees only backs, of `back`"),
         "{found}"
     );
     let solved = said(&place, "solve room.toml --no-cache");

@@ -78,11 +78,12 @@ fn pictures_are_named_after_view_quantity_and_shading() {
     );
     // The first frame of a turn is the view itself, and a path begins and ends at views.
     let bytes = |name: &str| fs::read(place.path(&format!("out/views-{name}.ppm"))).unwrap();
-    names("--format ppm --views all --show light,direct --direct exact");
+    // The exposure depends on all that a run sees.
+    names("--format ppm --views all --show light,direct --direct exact --exposure 2");
     let (first, last) = (bytes("direct-exact"), bytes("side-direct-exact"));
     let alone = bytes("exact");
-    names("--format ppm --turntable 3 --direct exact");
-    names("--format ppm --path 2 --show direct --direct exact");
+    names("--format ppm --turntable 3 --direct exact --exposure 2");
+    names("--format ppm --path 2 --show direct --direct exact --exposure 2");
     assert!(bytes("turntable-0001-exact") == alone);
     assert!(bytes("path-0001-direct-exact") == first && bytes("path-0002-direct-exact") == last);
 }

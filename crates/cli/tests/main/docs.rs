@@ -43,6 +43,10 @@ fn place() -> Place {
     place.write("room.toml", blocks(&scenes, "toml")[0]);
     let block = fs::read_to_string(place.path("block.obj")).unwrap();
     place.write("statue.obj", &block.replacen("f ", "g base\nf ", 1));
+    let (vertices, faces) = block.split_once("f ").unwrap();
+    let (first, others) = faces.split_once('\n').unwrap();
+    let of_blender = format!("{vertices}usemtl Lamp\nf {first}\nusemtl Red.001\n{others}");
+    place.write("myroom.obj", &of_blender);
     let square = |k: u32, z: u32, order: [u32; 4]| {
         let corners = [[0, 0], [1, 0], [1, 1], [0, 1]];
         let lines = (1u32..).zip(corners);

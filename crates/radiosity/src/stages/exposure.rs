@@ -13,8 +13,9 @@ const WIDTH: u32 = 128;
 /// So many cameras measure it, evenly spread over a film.
 const MOST_CAMERAS: usize = 64;
 
-/// The parameters of pictures that screens show from some cameras: they have one exposure. If that
-/// is automatic, 98 % of what is seen and not black is less bright than 0.8, by luminance.
+/// The parameters of pictures that screens show from some cameras, by some shadings: they have one
+/// exposure. If that is automatic, 98 % of what is seen and not black is less bright than 0.8, by
+/// luminance: patch by patch, or with exact direct light where a shading has it.
 /// Patches that emit do not count, unless nothing else is lit.
 ///
 /// Without this function an automatic exposure suits each image by itself, emitters included, and
@@ -24,20 +25,20 @@ pub fn expose(
     light: &PatchLight,
     cameras: &[Camera],
     params: &ImageParams,
+    shadings: &[Shading],
 ) -> ImageParams {
+    let has_exact = shadings.iter().any(|&shading| shading >= Shading::Exact);
+    let shading = if has_exact {
+        Shading::Exact
+    } else {
+        Shading::Constant
+    };
     let measured = || {
         let step = cameras.len().div_ceil(MOST_CAMERAS).max(1);
         let cameras: Vec<&Camera> = cameras.iter().step_by(step).collect();
-        let reflected = Shown::reflected(patches, light);
-        let all = || {
-            Exposure::of(&seen(
-                &Shown::light(patches, light),
-                patches,
-                &cameras,
-                params,
-            ))
-        };
-        Exposure::of(&seen(&reflected, patches, &cameras, params)).or_else(all)
+        let of = |shown: &Shown| Exposure::of(&seen(shown, patches, &cameras, params, shading));
+        let reflected = of(&Shown::reflected(patches, light));
+        reflected.or_else(|| of(&Shown::light(patches, light)))
     };
     // Where all is black, any factor will do.
     let exposure = params.exposure.number().or_else(measured).unwrap_or(1.0);
@@ -50,6 +51,7 @@ fn seen(
     patches: &Patches<'_>,
     cameras: &[&Camera],
     params: &ImageParams,
+    shading: Shading,
 ) -> Vec<Image> {
     let height = u64::from(WIDTH) * u64::from(params.height) / u64::from(params.width);
     let small = ImageParams {
@@ -59,7 +61,7 @@ fn seen(
         adaptive: 1,
         ..params.linear()
     };
-    let renderer = shown.renderer(&patches.mesh, &small, &[Shading::Constant]);
+    let renderer = shown.renderer(&patches.mesh, &small, &[shading]);
     let images = cameras.iter().map(|camera| renderer.render(camera, &small));
     images.flatten().collect()
 }

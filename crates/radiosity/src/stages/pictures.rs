@@ -172,10 +172,11 @@ impl Shown {
     /// The same without patches that emit.
     pub(super) fn reflected(patches: &Patches<'_>, light: &PatchLight) -> Shown {
         let mut shown = Shown::light(patches, light);
-        let emission = light.emission.iter();
-        for (value, emission) in shown.value.iter_mut().zip(emission) {
+        for (patch, emission) in light.emission.iter().enumerate() {
             if *emission != [0.0; 3] {
-                *value = [0.0; 3];
+                for of_patch in [&mut shown.value, &mut shown.emission, &mut shown.direct] {
+                    of_patch[patch] = [0.0; 3];
+                }
             }
         }
         shown
