@@ -97,8 +97,8 @@ const FIRST: [&str; 3] = [
 const COMMON: [&str; 21] = [
     "scene",
     "divisions",
-    "no_cache",
-    "threads",
+    "sparse",
+    "max_patch_edge",
     "verbose",
     "json",
     "dim",

@@ -82,7 +82,7 @@ fn with_unit(text: &str, units: &[(&str, f64)]) -> Option<f64> {
 pub(super) fn parse_threshold(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(x) if (0.0..1.0).contains(&x) => Ok(x),
-        _ => Err("expected a number from 0 to 1, like 1e-6".to_owned()),
+        _ => Err("expected a number from 0 to below 1, like 1e-6".to_owned()),
     }
 }
 

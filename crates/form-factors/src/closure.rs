@@ -81,9 +81,19 @@ impl Closure {
         let areas = form_factors.areas.clone();
         let exchange = form_factors.exchange.with_matrix(matrix);
         let sums = exchange.weighted_sums(&vec![1.0; areas.len()]);
-        let row = |(i, row): (usize, &RowFacts)| RowFacts {
-            fronts: quotient(sums[i], areas[i]),
-            ..*row
+        let off: Vec<f64> = self.scale.iter().map(|d| (d - 1.0).abs()).collect();
+        let off = form_factors.exchange.weighted_sums(&off);
+        let row = |(i, row): (usize, &RowFacts)| {
+            let fronts = quotient(sums[i], areas[i]);
+            // Rays may have missed what makes the sum less than 1, so that the change is an error:
+            // sum_j |d_i F_ij d_j - F_ij| <= |d_i - 1| sum_j F_ij d_j + sum_j F_ij |d_j - 1|.
+            let d = self.scale[i];
+            let change = (d - 1.0).abs() * fronts / d + quotient(off[i], areas[i]);
+            RowFacts {
+                fronts,
+                error: row.error.map(|error| error + change),
+                ..*row
+            }
         };
         FormFactors {
             exchange,

@@ -16,22 +16,22 @@
 //! order that neither threads nor instruction sets have a part in.
 
 mod band;
-mod member;
 mod shared;
 mod step;
-mod team;
 mod triangle;
+mod worker;
+mod workers;
 
 #[cfg(test)]
 mod tests;
 
 use crate::SymmetricMatrix;
 use band::{OfRows, WIDTH, blocks_of, rows_of};
-use member::Member;
 use radiosity_simd::InstructionSet;
 use std::sync::OnceLock;
-use team::Team;
 use triangle::{Solve, Triangle};
+use worker::Worker;
+use workers::Workers;
 
 /// Three vectors side by side at a row.
 pub type Triple<T> = [T; 3];
@@ -70,7 +70,7 @@ impl SymmetricMatrix {
     fn sweep_on(
         &self,
         set: InstructionSet,
-        members: usize,
+        count: usize,
         x: &mut [Triple<f32>],
         triples: usize,
         update: &mut Update<'_>,
@@ -79,15 +79,16 @@ impl SymmetricMatrix {
         if x.is_empty() {
             return Vec::new();
         }
-        let team = Team::new(set, self, x, triples, members);
+        let workers = Workers::new(set, self, x, triples, count);
         rayon::in_place_scope(|scope| {
-            let _dismissal = team.dismissed_at_end();
-            let team = &team;
-            (1..members).for_each(|member| scope.spawn(move |_| team.help(member)));
-            lead(team, x, update);
+            let _dismissal = workers.dismissed_at_end();
+            let workers = &workers;
+            (1..count).for_each(|worker| scope.spawn(move |_| workers.help(worker)));
+            lead(workers, x, update);
         });
         let mut below = Vec::with_capacity(x.len().next_multiple_of(WIDTH));
-        team.into_bands()
+        workers
+            .into_bands()
             .for_each(|band| band.append_below(&mut below));
         below.truncate(x.len());
         below
@@ -107,22 +108,22 @@ fn processors() -> usize {
 }
 
 /// Takes all steps, and solves each block after its own.
-fn lead(team: &Team<'_>, x: &mut [Triple<f32>], update: &mut Update<'_>) {
-    let (matrix, triples) = (team.matrix, team.triples);
-    let mut leader = Member::new(team, 0);
+fn lead(workers: &Workers<'_>, x: &mut [Triple<f32>], update: &mut Update<'_>) {
+    let (matrix, triples) = (workers.matrix, workers.triples);
+    let mut leader = Worker::new(workers, 0);
     let mut above = vec![OfRows::default(); triples];
     let mut below = above.clone();
     let mut values = vec![OfRows::default(); triples];
     let mut triangle = Triangle::default();
     for block in 0..blocks_of(matrix) {
-        team.lead(block, &mut leader);
+        workers.lead(block, &mut leader);
         above.fill(OfRows::default());
         below.fill(OfRows::default());
-        team.add_products(block, &mut above);
+        workers.add_products(block, &mut above);
         let rows = rows_of(block, matrix.size());
         triangle.set(matrix, &rows);
         let x = &mut x[rows.start * triples..rows.end * triples];
-        team.set.run(Solve {
+        workers.set.run(Solve {
             triangle: &triangle,
             rows,
             above: &mut above,
@@ -134,7 +135,7 @@ fn lead(team: &Team<'_>, x: &mut [Triple<f32>], update: &mut Update<'_>) {
         for (k, x) in x.iter().enumerate() {
             (0..3).for_each(|c| values[k % triples][c][k / triples] = x[c]);
         }
-        team.set_values(block, &values, &below);
+        workers.set_values(block, &values, &below);
     }
-    team.lead(blocks_of(matrix), &mut leader);
+    workers.lead(blocks_of(matrix), &mut leader);
 }

@@ -21,7 +21,7 @@ pub fn notes(scene: &Scene, mesh: &Mesh) -> Vec<String> {
     let far = (size >= FAR).then(|| {
         format!(
             "note: the scene is {} units across; if these are millimetres, `scale = 0.001` of \
-             meshes makes metres: pictures stay the same, powers in W do not",
+             meshes makes metres, as powers in W need; the camera's numbers are metres then, too",
             grouped(size.round() as u64)
         )
     });

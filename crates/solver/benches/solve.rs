@@ -4,7 +4,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use radiosity_matrix::{DenseExchange, SymmetricMatrix, packed_len};
-use radiosity_solver::{Params, System, relit, solve};
+use radiosity_solver::{Params, System, solve, superpose};
 
 fn solutions(criterion: &mut Criterion) {
     for size in [1728, 6912] {
@@ -31,8 +31,8 @@ fn solutions(criterion: &mut Criterion) {
 fn relighting(criterion: &mut Criterion) {
     let lights = vec![vec![[1.0, 0.5, 0.25]; 10_000]; 4];
     let dimming = [[0.1, 0.2, 0.3]; 4];
-    criterion.bench_function("relit, 10,000 patches and 4 lights", |b| {
-        b.iter(|| relit(&lights, &dimming));
+    criterion.bench_function("superpose, 10,000 patches and 4 lights", |b| {
+        b.iter(|| superpose(&lights, &dimming));
     });
 }
 

@@ -1,10 +1,10 @@
 //! The steps of one channel of one light by conjugate gradients, and what they tell.
 
-use crate::problem::LOST;
+use crate::scaled_system::UNIT_ROUNDOFF;
 
 /// Where `(p, M p)` is less of `(p, p / gain)` than this, a quarter of it or more is rounding, and
 /// says nothing of how far to go.
-const INDISTINCT: f64 = 4.0 * LOST;
+const INDISTINCT: f64 = 4.0 * UNIT_ROUNDOFF;
 
 /// One channel of one light.
 #[derive(Clone)]

@@ -31,13 +31,13 @@
 use crate::Rgb;
 use crate::channel::Channel;
 use crate::convergence::Progress;
-use crate::problem::{LOST, Problem, Values, ratio, worst};
-use crate::solve::Iteration;
+use crate::scaled_system::{ScaledSystem, UNIT_ROUNDOFF, Values, ratio, worst};
+use crate::solve::IterativeMethod;
 use radiosity_matrix::Triple;
 use std::rc::Rc;
 
 pub(crate) struct ConjugateGradients<'a> {
-    problem: Rc<Problem<'a>>,
+    scaled: Rc<ScaledSystem<'a>>,
     tolerance: f64,
     x: Values<f64>,
     z: Values<f64>,
@@ -62,18 +62,18 @@ struct Verified {
 impl<'a> ConjugateGradients<'a> {
     /// Begins at the emission, of which it is known what arrives.
     pub(crate) fn new(
-        problem: Rc<Problem<'a>>,
+        scaled: Rc<ScaledSystem<'a>>,
         irradiance: &[Triple<f64>],
         tolerance: f64,
     ) -> ConjugateGradients<'a> {
-        let emission = problem.emission.clone();
+        let emission = scaled.emission.clone();
         let mut iteration = ConjugateGradients {
             tolerance,
             x: Values::new(),
             z: Values::new(),
             p: Values::new(),
-            channels: vec![Channel::default(); 3 * problem.lights()],
-            problem,
+            channels: vec![Channel::default(); 3 * scaled.lights()],
+            scaled,
             best: None,
             is_verified: false,
         };
@@ -88,11 +88,11 @@ impl<'a> ConjugateGradients<'a> {
 
     /// Begins at values of which it is known what arrives where they leave.
     fn restart(&mut self, x: &[Triple<f32>], irradiance: &[Triple<f64>]) {
-        let problem = &self.problem;
-        let is_black = |k: usize, c: usize| problem.reflectance[k / problem.lights()][c] == 0.0;
+        let scaled = &self.scaled;
+        let is_black = |k: usize, c: usize| scaled.reflectance[k / scaled.lights()][c] == 0.0;
         self.x = x.iter().map(|x| x.map(f64::from)).collect();
         let residual = |k: usize| -> Rgb {
-            let z = problem.residual_at(k, &irradiance[k], &x[k]);
+            let z = scaled.residual_at(k, &irradiance[k], &x[k]);
             std::array::from_fn(|c| if is_black(k, c) { 0.0 } else { z[c] })
         };
         self.z = (0..x.len()).map(residual).collect();
@@ -107,8 +107,8 @@ impl<'a> ConjugateGradients<'a> {
     /// Looks how large residuals are, and which channels may rest.
     fn observe(&mut self) {
         // Products err by as much of `p`, and what is left cannot be told from that.
-        let enough = self.tolerance.max(LOST);
-        let residuals = self.problem.ratios(|k| self.z[k]);
+        let enough = self.tolerance.max(UNIT_ROUNDOFF);
+        let residuals = self.scaled.ratios(|k| self.z[k]);
         for (channel, residual) in self.channels.iter_mut().zip(residuals) {
             channel.residual = residual;
             channel.rests = residual <= enough || channel.is_stuck;
@@ -118,11 +118,11 @@ impl<'a> ConjugateGradients<'a> {
     /// A sum over all rows, weighted by area, for each channel of each light; `term` is asked by
     /// index, channel and reflectance, where that is not zero.
     fn reduced(&self, term: impl Fn(usize, usize, f64) -> f64) -> Vec<f64> {
-        let lights = self.problem.lights();
+        let lights = self.scaled.lights();
         let mut sums = vec![[0.0; 3]; lights];
         for k in 0..self.x.len() {
-            let area = self.problem.areas[k / lights];
-            let rho = &self.problem.reflectance[k / lights];
+            let area = self.scaled.areas[k / lights];
+            let rho = &self.scaled.reflectance[k / lights];
             for c in (0..3).filter(|&c| rho[c] > 0.0) {
                 sums[k % lights][c] += area * term(k, c, rho[c]);
             }
@@ -138,7 +138,7 @@ impl<'a> ConjugateGradients<'a> {
     /// One step of all channels that do not rest.
     fn step(&mut self) {
         let mut p = std::mem::take(&mut self.p);
-        let arrives = self.problem.irradiance(&p);
+        let arrives = self.scaled.irradiance(&p);
         let lengths = self.reduced(|k, c, rho| f64::from(p[k][c]) * (f64::from(p[k][c]) / rho));
         let reflected = self.reduced(|k, c, _| f64::from(p[k][c]) * arrives[k][c]);
         let channels = self.channels.iter_mut().zip(lengths).zip(reflected);
@@ -158,9 +158,9 @@ impl<'a> ConjugateGradients<'a> {
 
     /// Goes along `p`, of which it is known what arrives.
     fn go(&mut self, alphas: &[f64], p: &[Triple<f32>], arrives: &[Triple<f64>]) {
-        let lights = self.problem.lights();
+        let lights = self.scaled.lights();
         for k in 0..self.x.len() {
-            let rho = &self.problem.reflectance[k / lights];
+            let rho = &self.scaled.reflectance[k / lights];
             for c in 0..3 {
                 let alpha = alphas[3 * (k % lights) + c];
                 let p = f64::from(p[k][c]);
@@ -172,7 +172,7 @@ impl<'a> ConjugateGradients<'a> {
 
     /// The next direction.
     fn turn(&self, betas: &[f64], p: &mut [Triple<f32>]) {
-        let lights = self.problem.lights();
+        let lights = self.scaled.lights();
         for (k, p) in p.iter_mut().enumerate() {
             for c in 0..3 {
                 let beta = betas[3 * (k % lights) + c];
@@ -183,8 +183,8 @@ impl<'a> ConjugateGradients<'a> {
 
     /// A residual over the smallest eigenvalue, relative to the values.
     fn error(&self, residual: impl Fn(usize) -> Rgb) -> f64 {
-        let residuals = self.problem.norms_of(residual).into_flattened();
-        let values = self.problem.norms_of(|k| self.x[k]).into_flattened();
+        let residuals = self.scaled.norms_of(residual).into_flattened();
+        let values = self.scaled.norms_of(|k| self.x[k]).into_flattened();
         let known = residuals.into_iter().zip(values).zip(&self.channels);
         worst(known.map(|((residual, value), of)| ratio(residual / of.least, value)))
     }
@@ -192,9 +192,9 @@ impl<'a> ConjugateGradients<'a> {
     /// Finds the residual of the values in single precision; keeps them if they are the best.
     fn verify(&mut self) {
         let x: Values<f32> = self.x.iter().map(|x| x.map(|x| x as f32)).collect();
-        let irradiance = self.problem.irradiance(&x);
-        let at = |k: usize| self.problem.residual_at(k, &irradiance[k], &x[k]);
-        let (residual, error) = (self.problem.relative(at), self.error(at));
+        let irradiance = self.scaled.irradiance(&x);
+        let at = |k: usize| self.scaled.residual_at(k, &irradiance[k], &x[k]);
+        let (residual, error) = (self.scaled.relative(at), self.error(at));
         if residual < self.best_residual() || self.best.is_none() {
             self.best = Some(Verified {
                 x,
@@ -212,7 +212,7 @@ impl<'a> ConjugateGradients<'a> {
     }
 }
 
-impl Iteration for ConjugateGradients<'_> {
+impl IterativeMethod for ConjugateGradients<'_> {
     fn advance(&mut self) -> Progress {
         if let Some(best) = self.best.take_if(|_| self.is_verified) {
             self.restart(&best.x, &best.irradiance);
@@ -235,7 +235,7 @@ impl Iteration for ConjugateGradients<'_> {
             residual,
             error: Some(error),
             // What single precision has no room for does not come back by beginning anew.
-            stalled: self.is_verified && (residual > 0.5 * before || residual <= LOST),
+            stalled: self.is_verified && (residual > 0.5 * before || residual <= UNIT_ROUNDOFF),
             suspicious: self.channels.iter().any(|channel| channel.is_stuck),
         }
     }

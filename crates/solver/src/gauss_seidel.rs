@@ -28,8 +28,8 @@
 use crate::Rgb;
 use crate::convergence::Progress;
 use crate::params::Relaxation;
-use crate::problem::{LOST, Problem, Values, ratio, worst};
-use crate::solve::Iteration;
+use crate::scaled_system::{ScaledSystem, UNIT_ROUNDOFF, Values, ratio, worst};
+use crate::solve::IterativeMethod;
 use radiosity_matrix::{Sweep, Triple};
 use std::rc::Rc;
 
@@ -37,15 +37,15 @@ use std::rc::Rc;
 /// not yet those that remain.
 const LOOKS: [usize; 2] = [3, 8];
 /// Relative changes below this are roundings for the most part: those of two sweeps, which scatter.
-const ROUNDING: f64 = 4.0 * LOST;
+const ROUNDING: f64 = 4.0 * UNIT_ROUNDOFF;
 /// Relative changes below this tell no rate: where patches are equal, so are their roundings, and
 /// those of two sweeps are a sixteenth of this.
-const TELLING: f64 = 32.0 * LOST;
+const TELLING: f64 = 32.0 * UNIT_ROUNDOFF;
 /// Sweeps without less of a change after which none is expected.
 const STAGNANT_SWEEPS: usize = 4;
 
 pub(crate) struct GaussSeidel<'a> {
-    problem: Rc<Problem<'a>>,
+    scaled: Rc<ScaledSystem<'a>>,
     rows: &'a dyn Sweep,
     x: Values<f32>,
     /// `sum_{j<i} F_ij x_j`, and `sum_{j>i} F_ij x_j`.
@@ -64,13 +64,13 @@ pub(crate) struct GaussSeidel<'a> {
 impl<'a> GaussSeidel<'a> {
     /// Begins at the emission, of which one pass finds the sums.
     pub(crate) fn new(
-        problem: Rc<Problem<'a>>,
+        scaled: Rc<ScaledSystem<'a>>,
         rows: &'a dyn Sweep,
         relaxation: Relaxation,
     ) -> GaussSeidel<'a> {
-        let mut x = problem.emission.clone();
+        let mut x = scaled.emission.clone();
         let mut above = Values::with_capacity(x.len());
-        let below = rows.sweep(&mut x, problem.lights(), &mut |_, sums, _| {
+        let below = rows.sweep(&mut x, scaled.lights(), &mut |_, sums, _| {
             above.extend_from_slice(sums);
         });
         let (factor, is_automatic) = match relaxation {
@@ -78,7 +78,7 @@ impl<'a> GaussSeidel<'a> {
             Relaxation::Automatic => (1.0, true),
         };
         GaussSeidel {
-            problem,
+            scaled,
             rows,
             x,
             sums: [above, below],
@@ -102,17 +102,17 @@ impl<'a> GaussSeidel<'a> {
 
     /// Goes through all rows; keeps the norm of the change.
     fn sweep(&mut self) {
-        let problem = &self.problem;
+        let scaled = &self.scaled;
         self.used = self.factor;
-        let (lights, factor) = (problem.lights(), self.factor);
+        let (lights, factor) = (scaled.lights(), self.factor);
         let [above, below] = &mut self.sums;
         let mut norms = vec![(0.0, 0.0); lights];
         let mut update = |i: usize, sums: &[Triple<f64>], x: &mut [Triple<f32>]| {
             let first = i * lights;
-            let (area, rho) = (problem.areas[i], &problem.reflectance[i]);
+            let (area, rho) = (scaled.areas[i], &scaled.reflectance[i]);
             for (k, (x, norm)) in x.iter_mut().zip(&mut norms).enumerate() {
                 let (above, below) = (&mut above[first + k], &below[first + k]);
-                let emission = &problem.emission[first + k];
+                let emission = &scaled.emission[first + k];
                 *above = sums[k];
                 for c in 0..3 {
                     let old = f64::from(x[c]);
@@ -135,8 +135,8 @@ impl<'a> GaussSeidel<'a> {
     }
 
     fn residual(&self) -> f64 {
-        let problem = &self.problem;
-        problem.relative(|k| problem.residual_at(k, &self.irradiance_at(k), &self.x[k]))
+        let scaled = &self.scaled;
+        scaled.relative(|k| scaled.residual_at(k, &self.irradiance_at(k), &self.x[k]))
     }
 
     /// Over the last two changes, unless they are roundings.
@@ -177,7 +177,7 @@ fn reflectance_behind(rate: f64, factor: f64) -> f64 {
 /// reflected on and on.
 fn lost(rate: f64, factor: f64) -> f64 {
     let reflectance = reflectance_behind(rate.max(factor - 1.0), factor);
-    LOST / (factor * (1.0 - reflectance))
+    UNIT_ROUNDOFF / (factor * (1.0 - reflectance))
 }
 
 /// The factor at which the rate is `factor - 1`, in the room of equal patches.
@@ -196,7 +196,7 @@ fn best_factor(reflectance: f64) -> f64 {
     low
 }
 
-impl Iteration for GaussSeidel<'_> {
+impl IterativeMethod for GaussSeidel<'_> {
     fn advance(&mut self) -> Progress {
         self.sweep();
         let change = self.changes.last().copied().unwrap_or(0.0);

@@ -9,7 +9,7 @@
 //!
 //! It is linear in the emission, so it is solved for each light by itself, all in the same passes
 //! over the matrix, and a lamp that is dimmed afterwards needs no new solution
-//! ([`relit`]). Each method is one file: [`Method::GaussSeidel`], with over-relaxation,
+//! ([`superpose`]). Each method is one file: [`Method::GaussSeidel`], with over-relaxation,
 //! and [`Method::ConjugateGradients`]; all share the operator
 //! ([`radiosity_matrix::Exchange`]) and the report ([`Convergence`]).
 //!
@@ -23,7 +23,7 @@ mod gauss_seidel;
 mod params;
 mod power;
 mod power_iteration;
-mod problem;
+mod scaled_system;
 mod solution;
 mod solve;
 mod system;
@@ -35,7 +35,7 @@ pub use convergence::Convergence;
 pub use diagnosis::{SolveError, check_radiosities};
 pub use params::{Method, Params, Relaxation};
 pub use power::Power;
-pub use solution::{Solution, relit};
+pub use solution::{Solution, superpose};
 pub use solve::{Solver, solve};
 pub use system::System;
 

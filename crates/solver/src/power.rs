@@ -1,6 +1,6 @@
 //! Where the power of a light goes, as far as fronts are concerned.
 
-use crate::problem::{Problem, Values};
+use crate::scaled_system::{ScaledSystem, Values};
 use crate::{Rgb, System};
 use serde::{Deserialize, Serialize};
 
@@ -17,17 +17,17 @@ impl Power {
     /// Those of each light, from what arrives where its radiosities leave.
     pub(crate) fn of_lights(
         system: &System<'_>,
-        problem: &Problem<'_>,
+        scaled: &ScaledSystem<'_>,
         irradiance: &Values<f64>,
     ) -> Vec<Power> {
-        let lights = problem.lights();
+        let lights = scaled.lights();
         let mut powers = vec![Power::default(); lights];
         for (k, irradiance) in irradiance.iter().enumerate() {
             let (i, light) = (k / lights, k % lights);
-            let (power, unit) = (&mut powers[light], &problem.units[light]);
+            let (power, unit) = (&mut powers[light], &scaled.units[light]);
             let (area, reflectance) = (system.areas()[i], &system.reflectance[i]);
             for c in 0..3 {
-                let emission = f64::from(problem.emission[k][c]);
+                let emission = f64::from(scaled.emission[k][c]);
                 power.emitted[c] += area * unit[c] * emission;
                 power.absorbed[c] += area * unit[c] * (1.0 - reflectance[c]) * irradiance[c];
             }

@@ -21,7 +21,7 @@ pub struct Solution {
 /// # Panics
 ///
 /// If there are not as many factors as lights.
-pub fn relit(lights: &[Vec<[f32; 3]>], dimming: &[Rgb]) -> Vec<[f32; 3]> {
+pub fn superpose(lights: &[Vec<[f32; 3]>], dimming: &[Rgb]) -> Vec<[f32; 3]> {
     assert_eq!(dimming.len(), lights.len(), "a factor for each light");
     let patches = lights.first().map_or(0, Vec::len);
     let mut sum = vec![[0.0; 3]; patches];

@@ -5,12 +5,12 @@ use crate::convergence::Progress;
 use crate::diagnosis::{self, SolveError};
 use crate::gauss_seidel::GaussSeidel;
 use crate::params::{Method, Params};
-use crate::problem::{Problem, Values};
+use crate::scaled_system::{ScaledSystem, Values};
 use crate::{Convergence, Power, Solution, System};
 use std::rc::Rc;
 
 /// A method on its way.
-pub(crate) trait Iteration {
+pub(crate) trait IterativeMethod {
     /// Takes one pass over the matrix (conjugate gradients take one more to be sure of the last).
     fn advance(&mut self) -> Progress;
 
@@ -53,8 +53,8 @@ pub fn solve(system: &System<'_>, params: &Params) -> Result<Solution, SolveErro
 pub struct Solver<'a> {
     system: &'a System<'a>,
     params: Params,
-    problem: Rc<Problem<'a>>,
-    iteration: Box<dyn Iteration + 'a>,
+    scaled: Rc<ScaledSystem<'a>>,
+    iteration: Box<dyn IterativeMethod + 'a>,
     direct: Vec<Vec<[f32; 3]>>,
     residuals: Vec<f64>,
     error: Option<f64>,
@@ -66,27 +66,28 @@ impl<'a> Solver<'a> {
     /// Begins at `B = E`.
     pub fn new(system: &'a System<'a>, params: &Params) -> Result<Solver<'a>, SolveError> {
         diagnosis::check_materials(system)?;
-        let problem = Rc::new(Problem::new(system));
-        let shared = Rc::clone(&problem);
-        let (iteration, irradiance): (Box<dyn Iteration + 'a>, Values<f64>) = match params.method {
-            Method::GaussSeidel => {
-                let rows = system.exchange.rows().ok_or(SolveError::NoRows)?;
-                let start = GaussSeidel::new(shared, rows, params.relaxation);
-                let irradiance = start.irradiance();
-                (Box::new(start), irradiance)
-            }
-            Method::ConjugateGradients => {
-                let irradiance = problem.irradiance(&problem.emission);
-                let start = ConjugateGradients::new(shared, &irradiance, params.residual);
-                (Box::new(start), irradiance)
-            }
-        };
-        let direct = problem.to_lights(&problem.reflected(&irradiance));
+        let scaled = Rc::new(ScaledSystem::new(system));
+        let shared = Rc::clone(&scaled);
+        let (iteration, irradiance): (Box<dyn IterativeMethod + 'a>, Values<f64>) =
+            match params.method {
+                Method::GaussSeidel => {
+                    let rows = system.exchange.rows().ok_or(SolveError::NoRows)?;
+                    let start = GaussSeidel::new(shared, rows, params.relaxation);
+                    let irradiance = start.irradiance();
+                    (Box::new(start), irradiance)
+                }
+                Method::ConjugateGradients => {
+                    let irradiance = scaled.irradiance(&scaled.emission);
+                    let start = ConjugateGradients::new(shared, &irradiance, params.residual);
+                    (Box::new(start), irradiance)
+                }
+            };
+        let direct = scaled.to_lights(&scaled.reflected(&irradiance));
         Ok(Solver {
             system,
             params: *params,
-            converged: problem.is_dark(),
-            problem,
+            converged: scaled.is_dark(),
+            scaled,
             iteration,
             direct,
             residuals: Vec::new(),
@@ -116,7 +117,7 @@ impl<'a> Solver<'a> {
 
     /// The solution as far as it is.
     pub fn finish(self) -> Result<Solution, SolveError> {
-        let (system, problem) = (self.system, self.problem);
+        let (system, scaled) = (self.system, self.scaled);
         let last = self.residuals.last().copied().unwrap_or(0.0);
         let is_lost = match self.stalled {
             true => last > diagnosis::FAR,
@@ -127,8 +128,8 @@ impl<'a> Solver<'a> {
         }
         let relaxation = self.iteration.relaxation();
         let (x, irradiance) = self.iteration.finish();
-        let residual = problem.relative(|k| problem.residual_at(k, &irradiance[k], &x[k]));
-        let lights = problem.to_lights(&x);
+        let residual = scaled.relative(|k| scaled.residual_at(k, &irradiance[k], &x[k]));
+        let lights = scaled.to_lights(&x);
         diagnosis::check_radiosities(lights.iter().map(Vec::as_slice))?;
         if !self.converged && residual > diagnosis::WORTHLESS {
             return Err(SolveError::Worthless { residual });
@@ -143,7 +144,7 @@ impl<'a> Solver<'a> {
                 residuals: self.residuals,
                 error: self.error,
                 relaxation,
-                powers: Power::of_lights(system, &problem, &irradiance),
+                powers: Power::of_lights(system, &scaled, &irradiance),
             },
             lights,
             direct: self.direct,

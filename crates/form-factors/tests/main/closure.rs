@@ -47,7 +47,11 @@ fn closed_rows_sum_to_one_and_others_keep_their_sums() {
                 (after.fronts - expected).abs() < 2e-7 * expected.max(0.01),
                 "{after:?}"
             );
-            assert_eq!((before.backs, before.error), (after.backs, after.error));
+            assert_eq!(before.backs, after.backs);
+            // What was changed may have been right.
+            let change = (after.fronts - before.fronts).abs();
+            let least = before.error.map(|error| error + (1.0 - 1e-6) * change);
+            assert!(after.error >= least, "{before:?} {after:?}");
             *(if sees_fronts_alone {
                 &mut ones
             } else {

@@ -23,10 +23,10 @@ pub(super) struct Band {
 /// Three vectors on a band.
 pub(super) struct OfBand {
     pub(super) x: Triple<[Piece<f32>; PIECES]>,
-    /// The sums below the diagonal, but for what is recent.
+    /// The sums below the diagonal, but for what is pending.
     pub(super) below: Triple<[Piece<f64>; PIECES]>,
     /// What the last few blocks add to them.
-    pub(super) recent: Triple<[Piece<f32>; PIECES]>,
+    pub(super) pending: Triple<[Piece<f32>; PIECES]>,
 }
 
 /// The rows of a block, left of the first of them.
@@ -50,7 +50,7 @@ pub(super) fn rows_of(block: usize, size: usize) -> Range<usize> {
 }
 
 /// Whether all values of a block are zero.
-pub(super) fn is_dark(values: &[OfRows<f32>]) -> bool {
+pub(super) fn is_zero(values: &[OfRows<f32>]) -> bool {
     let values = values.as_flattened().as_flattened();
     values.iter().all(|&value| value == 0.0)
 }
@@ -108,7 +108,7 @@ impl Band {
         let blank = || OfBand {
             x: [[[0.0; WIDE]; PIECES]; 3],
             below: [[[0.0; WIDE]; PIECES]; 3],
-            recent: [[[0.0; WIDE]; PIECES]; 3],
+            pending: [[[0.0; WIDE]; PIECES]; 3],
         };
         let mut band = Band {
             triples: (0..triples).map(|_| blank()).collect(),

@@ -6,8 +6,7 @@ use radiosity_simd::{Float, Kernel, LANES, Simd, WideFloat};
 
 /// Rows that are taken together: their sums, or their factors, fit into the registers.
 const QUAD: usize = 4;
-/// Of what is ahead, so many rows of a quad are fetched while one is added, the others while one is
-/// multiplied.
+/// So many rows of a quad are prefetched while one is added, the others while one is multiplied.
 const HALF: usize = QUAD / 2;
 
 /// A step on one band: adds the last block, and multiplies by the next one.
@@ -19,9 +18,9 @@ pub(super) struct Step<'a> {
     pub(super) next: Option<(BlockInBand<'a>, &'a mut [OfRows<f32>])>,
     /// What the next step of this thread reads first; where it helps another with that one's last
     /// band, what the other does.
-    pub(super) ahead: Option<BlockInBand<'a>>,
+    pub(super) prefetched: Option<BlockInBand<'a>>,
     /// Whether what the last blocks added becomes part of the sums in double precision.
-    pub(super) settles: bool,
+    pub(super) flushes: bool,
 }
 
 impl Kernel for Step<'_> {
@@ -35,25 +34,25 @@ impl Kernel for Step<'_> {
                 // The first triple's numbers come from far, and are still at hand for the others.
                 let mut of_triples = triples.iter_mut().zip(*values);
                 if let Some((triple, values)) = of_triples.next() {
-                    let ahead = fetched(&self.ahead, quad * QUAD);
-                    add(simd, rows, quad, ahead, values, &mut triple.recent);
+                    let prefetched = fetched(&self.prefetched, quad * QUAD);
+                    add(simd, rows, quad, prefetched, values, &mut triple.pending);
                 }
                 for (triple, values) in of_triples {
-                    add(simd, rows, quad, NOTHING, values, &mut triple.recent);
+                    add(simd, rows, quad, NOTHING, values, &mut triple.pending);
                 }
             }
         }
-        if self.settles {
+        if self.flushes {
             for triple in &mut *triples {
-                settle(simd, triple);
+                flush(simd, triple);
             }
         }
         if let Some((rows, products)) = self.next {
             for quad in 0..BLOCK / QUAD {
                 let mut of_triples = triples.iter().zip(&mut *products);
                 if let Some((triple, products)) = of_triples.next() {
-                    let ahead = fetched(&self.ahead, quad * QUAD + HALF);
-                    multiply(simd, &rows, quad, ahead, &triple.x, products);
+                    let prefetched = fetched(&self.prefetched, quad * QUAD + HALF);
+                    multiply(simd, &rows, quad, prefetched, &triple.x, products);
                 }
                 for (triple, products) in of_triples {
                     multiply(simd, &rows, quad, NOTHING, &triple.x, products);
@@ -64,34 +63,34 @@ impl Kernel for Step<'_> {
 }
 
 /// Rows that are fetched.
-type Ahead<'a> = [&'a [Piece<f32>]; HALF];
-const NOTHING: Ahead<'_> = [&[]; HALF];
+type Prefetched<'a> = [&'a [Piece<f32>]; HALF];
+const NOTHING: Prefetched<'_> = [&[]; HALF];
 
-/// Some rows, from one on, of what is ahead.
+/// Some rows, from one on, of what is to be prefetched.
 #[inline(always)]
-fn fetched<'a>(ahead: &Option<BlockInBand<'a>>, first: usize) -> Ahead<'a> {
-    match ahead {
-        Some(ahead) => ahead.rows(first, ahead.pieces.len()),
+fn fetched<'a>(prefetched: &Option<BlockInBand<'a>>, first: usize) -> Prefetched<'a> {
+    match prefetched {
+        Some(prefetched) => prefetched.rows(first, prefetched.pieces.len()),
         None => NOTHING,
     }
 }
 
 #[inline(always)]
-fn fetch<S: Simd>(simd: S, ahead: Ahead<'_>, piece: usize) {
-    if piece < ahead[0].len() {
-        for row in ahead {
+fn fetch<S: Simd>(simd: S, prefetched: Prefetched<'_>, piece: usize) {
+    if piece < prefetched[0].len() {
+        for row in prefetched {
             simd.prefetch(&row[piece]);
         }
     }
 }
 
-/// Adds some rows times their values to the sums, and has what is ahead fetched.
+/// Adds some rows times their values to the sums, and prefetches others.
 #[inline(always)]
 fn add<S: Simd>(
     simd: S,
     rows: &BlockInBand<'_>,
     quad: usize,
-    ahead: Ahead<'_>,
+    prefetched: Prefetched<'_>,
     values: &OfRows<f32>,
     sums: &mut Triple<[Piece<f32>; PIECES]>,
 ) {
@@ -107,7 +106,7 @@ fn add<S: Simd>(
     let [x, y, z] = sums;
     let (x, y, z) = (&mut x[..count], &mut y[..count], &mut z[..count]);
     for piece in 0..count {
-        fetch(simd, ahead, piece);
+        fetch(simd, prefetched, piece);
         let mut sums = [
             simd.wide(&x[piece]),
             simd.wide(&y[piece]),
@@ -126,24 +125,24 @@ fn add<S: Simd>(
 }
 
 #[inline(always)]
-fn settle<S: Simd>(simd: S, triple: &mut OfBand) {
+fn flush<S: Simd>(simd: S, triple: &mut OfBand) {
     for c in 0..3 {
         let below = triple.below[c].as_flattened_mut().as_chunks_mut();
-        let recent = triple.recent[c].as_flattened_mut().as_chunks_mut();
-        for (below, recent) in below.0.iter_mut().zip(recent.0) {
-            *below = (simd.f64(below) + simd.widen(simd.f32(recent))).lanes();
-            *recent = [0.0; LANES];
+        let pending = triple.pending[c].as_flattened_mut().as_chunks_mut();
+        for (below, pending) in below.0.iter_mut().zip(pending.0) {
+            *below = (simd.f64(below) + simd.widen(simd.f32(pending))).lanes();
+            *pending = [0.0; LANES];
         }
     }
 }
 
-/// The products of some rows with the values of a band; has what is ahead fetched.
+/// The products of some rows with the values of a band; prefetches others.
 #[inline(always)]
 fn multiply<S: Simd>(
     simd: S,
     rows: &BlockInBand<'_>,
     quad: usize,
-    ahead: Ahead<'_>,
+    prefetched: Prefetched<'_>,
     [x, y, z]: &Triple<[Piece<f32>; PIECES]>,
     products: &mut OfRows<f32>,
 ) {
@@ -153,7 +152,7 @@ fn multiply<S: Simd>(
     let [x, y, z] = [&x[..count], &y[..count], &z[..count]];
     let mut sums = [[simd.splat_wide(0.0); 3]; QUAD];
     for piece in 0..count {
-        fetch(simd, ahead, piece);
+        fetch(simd, prefetched, piece);
         let x = [
             simd.wide(&x[piece]),
             simd.wide(&y[piece]),

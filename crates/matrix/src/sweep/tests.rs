@@ -33,13 +33,13 @@ type Sums = (Vec<Triple<f64>>, Vec<Triple<f64>>);
 
 fn swept(
     set: InstructionSet,
-    members: usize,
+    count: usize,
     matrix: &SymmetricMatrix,
     x: &mut [Triple<f32>],
     triples: usize,
 ) -> Sums {
     let mut above = Vec::new();
-    let below = matrix.sweep_on(set, members, x, triples, &mut |i, sums, x| {
+    let below = matrix.sweep_on(set, count, x, triples, &mut |i, sums, x| {
         assert_eq!(above.len(), i * triples, "row after row");
         above.extend_from_slice(sums);
         relax(sums, x);
@@ -146,16 +146,16 @@ fn dark_blocks_and_bands_have_no_part_in_sums() {
 #[test]
 fn what_is_dark_is_passed_over() {
     let size = 2100;
-    let is_lit = |row: usize| row / 512 == 1;
-    let blocks_are_lit = |row: usize| is_lit(row / 16 * 16);
+    let is_nonzero = |row: usize| row / 512 == 1;
+    let blocks_are_lit = |row: usize| is_nonzero(row / 16 * 16);
     let values = (0..size).flat_map(|i| {
-        // Rows of a block are multiplied by a lit band's values, columns added by a lit block's.
-        let is_read = move |j: usize| blocks_are_lit(i) || is_lit(j) || i / 16 == j / 16;
+        // Rows are multiplied by the values of a nonzero band, columns by those of a block.
+        let is_read = move |j: usize| blocks_are_lit(i) || is_nonzero(j) || i / 16 == j / 16;
         (0..i).map(move |j| if is_read(j) { number(i + j) } else { f32::NAN })
     });
     let matrix = SymmetricMatrix::new(size, values.collect::<Vec<f32>>()).unwrap();
     let mut x: Vec<Triple<f32>> = (0..size)
-        .map(|row| if is_lit(row) { [1.0; 3] } else { [0.0; 3] })
+        .map(|row| if is_nonzero(row) { [1.0; 3] } else { [0.0; 3] })
         .collect();
     let mut sums = Vec::new();
     let below = matrix.sweep(&mut x, 1, &mut |_, above, _| sums.extend_from_slice(above));
@@ -168,21 +168,21 @@ fn pool(threads: usize) -> rayon::ThreadPool {
     pool.expect("threads")
 }
 
-/// More members than there are threads too: those come late, or never.
+/// More workers than there are threads, too: those come late, or never.
 #[test]
 fn neither_threads_nor_instruction_sets_have_a_part_in_the_result() {
     let size = 4200;
     let matrix = matrix(size);
-    let run = |set: InstructionSet, members: usize, threads: usize| {
+    let run = |set: InstructionSet, count: usize, threads: usize| {
         let mut x = vectors(size, 1);
-        let sums = pool(threads).install(|| swept(set, members, &matrix, &mut x, 1));
+        let sums = pool(threads).install(|| swept(set, count, &matrix, &mut x, 1));
         (x, sums)
     };
     let expected = run(InstructionSet::current(), 1, 1);
-    for (members, threads) in [(2, 2), (3, 3), (5, 5), (9, 9), (3, 1), (5, 2)] {
+    for (count, threads) in [(2, 2), (3, 3), (5, 5), (9, 9), (3, 1), (5, 2)] {
         assert!(
-            run(InstructionSet::current(), members, threads) == expected,
-            "{members} members, {threads} threads"
+            run(InstructionSet::current(), count, threads) == expected,
+            "{count} count, {threads} threads"
         );
     }
     for set in InstructionSet::available() {
@@ -195,11 +195,11 @@ fn neither_threads_nor_instruction_sets_have_a_part_in_the_result() {
 fn nor_have_they_where_some_is_dark() {
     let size = 4200;
     let matrix = matrix(size);
-    let run = |set: InstructionSet, members: usize| {
+    let run = |set: InstructionSet, count: usize| {
         let mut x = partly_lit(size, 1);
         let mut above = Vec::new();
-        let below = pool(members).install(|| {
-            matrix.sweep_on(set, members, &mut x, 1, &mut |i, sums, x| {
+        let below = pool(count).install(|| {
+            matrix.sweep_on(set, count, &mut x, 1, &mut |i, sums, x| {
                 above.extend_from_slice(sums);
                 relax_some(i, sums, x);
             })
@@ -208,8 +208,8 @@ fn nor_have_they_where_some_is_dark() {
     };
     let expected = run(InstructionSet::current(), 1);
     for set in InstructionSet::available() {
-        for members in [1, 2, 5] {
-            assert!(run(set, members) == expected, "{} {members}", set.name());
+        for count in [1, 2, 5] {
+            assert!(run(set, count) == expected, "{} {count}", set.name());
         }
     }
 }

@@ -87,7 +87,7 @@ impl Solved<'_> {
         let factors = self.factors;
         let dimming = dimming.factors();
         let sum = |lights: &[Vec<[f32; 3]>]| {
-            let mut sum = solver::relit(lights, &dimming);
+            let mut sum = solver::superpose(lights, &dimming);
             // It is dark where there are no lights.
             sum.resize(factors.patches.mesh.patches.len(), [0.0; 3]);
             sum

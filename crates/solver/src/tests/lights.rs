@@ -15,7 +15,7 @@ fn two_lights() -> Case {
 fn relit_is_solved_anew() {
     let case = two_lights();
     let dimming = [[0.3, 0.2, 1.0], [7.0, 0.0, 2.0]];
-    let relit = relit(&case.solve(&Params::default()).lights, &dimming);
+    let superpose = superpose(&case.solve(&Params::default()).lights, &dimming);
     let mut dimmed = two_lights();
     let mut sum = vec![[0.0; 3]; 30];
     for (light, dim) in case.lights.iter().zip(&dimming) {
@@ -25,9 +25,12 @@ fn relit_is_solved_anew() {
     }
     dimmed.lights = vec![sum];
     let fresh = &dimmed.solve(&Params::default()).lights[0];
-    for (relit, fresh) in relit.as_flattened().iter().zip(fresh.as_flattened()) {
+    for (superpose, fresh) in superpose.as_flattened().iter().zip(fresh.as_flattened()) {
         // Residuals of 1e-6 of emissions that are at most 40 times the radiosity of the others.
-        assert!((relit - fresh).abs() <= 1e-5 * fresh, "{relit} {fresh}");
+        assert!(
+            (superpose - fresh).abs() <= 1e-5 * fresh,
+            "{superpose} {fresh}"
+        );
     }
 }
 
@@ -87,7 +90,7 @@ fn no_light_is_dark() {
     for method in METHODS {
         let solution = case.solve(&with(method));
         assert!(solution.report.converged && solution.lights.is_empty());
-        assert!(relit(&solution.lights, &[]).is_empty());
+        assert!(superpose(&solution.lights, &[]).is_empty());
     }
 }
 

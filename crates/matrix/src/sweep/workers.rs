@@ -1,7 +1,7 @@
 //! Threads that take the steps of a sweep together.
 //!
 //! A sweep has thousands of steps of some microseconds each, too short to call threads for. So
-//! helpers are called once and wait for the next step without sleeping. Each member has a run of
+//! helpers are called once and wait for the next step without sleeping. Each worker has a run of
 //! bands of its own, the same from step to step but for a band or so, whose numbers are still in
 //! its cache; then it takes what is left of those of others, who may have come late or never: from
 //! their end, so that it is the same bands again. A claim on a band is a number that also tells the
@@ -10,9 +10,9 @@
 //! Long because: how threads claim bands is right or wrong as a whole.
 
 use super::Triple;
-use super::band::{BLOCK, Band, OfRows, WIDTH, is_dark};
-use super::member::Member;
+use super::band::{BLOCK, Band, OfRows, WIDTH, is_zero};
 use super::shared::Shared;
+use super::worker::Worker;
 use crate::SymmetricMatrix;
 use radiosity_simd::InstructionSet;
 use std::hint::spin_loop;
@@ -20,27 +20,27 @@ use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard};
 
 /// What is shared.
-pub(super) struct Team<'a> {
+pub(super) struct Workers<'a> {
     pub(super) set: InstructionSet,
     pub(super) matrix: &'a SymmetricMatrix,
     pub(super) triples: usize,
     bands: Vec<Mutex<Band>>,
     /// Which bands have values other than zero.
-    lit: Vec<AtomicBool>,
+    nonzero: Vec<AtomicBool>,
     /// Those of the last block.
     values: Shared,
     /// Those of the next block with each band.
     products: Shared,
-    /// Per member.
-    claims: Vec<Apart<AtomicU64>>,
+    /// Per worker.
+    claims: Vec<CachePadded<AtomicU64>>,
     /// Bands of this step that are done.
-    done: Apart<AtomicUsize>,
+    done: CachePadded<AtomicUsize>,
     is_over: AtomicBool,
     /// Whether a helper has panicked, and its bands will never be done.
     has_failed: AtomicBool,
 }
 
-/// Tells the team when it is dropped in a panic.
+/// Tells the others when it is dropped in a panic.
 struct TellPanic<'t>(&'t AtomicBool);
 
 impl Drop for TellPanic<'_> {
@@ -54,9 +54,20 @@ impl Drop for TellPanic<'_> {
 /// What would slow others down if it stood in the same line of memory.
 #[derive(Default)]
 #[repr(align(128))]
-struct Apart<T>(T);
+struct CachePadded<T>(T);
 
-/// The end of a run that bands are taken from. Claims count those taken from each, and steps.
+/// The end of a run that bands are taken from. A claim is one addition to one number, which holds
+/// three counters, so that whoever adds knows of which step and which band it is:
+///
+/// ```text
+///  63                     40 39              20 19               0
+/// +-------------------------+------------------+------------------+
+/// | block of the step, + 1  | taken from back  | taken from front |
+/// +-------------------------+------------------+------------------+
+/// ```
+///
+/// A step sets the first counter and clears the others. Neither of these overflows into its
+/// neighbour: of each run a worker claims once more than it gets.
 #[derive(Clone, Copy)]
 pub(super) enum End {
     Front = 1,
@@ -77,28 +88,28 @@ pub(super) struct Claim {
     pub(super) first: usize,
 }
 
-impl<'a> Team<'a> {
+impl<'a> Workers<'a> {
     pub(super) fn new(
         set: InstructionSet,
         matrix: &'a SymmetricMatrix,
         x: &[Triple<f32>],
         triples: usize,
-        members: usize,
-    ) -> Team<'a> {
+        count: usize,
+    ) -> Workers<'a> {
         let of_bands = || x.chunks(WIDTH * triples);
         let bands = of_bands().map(|x| Mutex::new(Band::new(x, triples)));
         let bands: Vec<Mutex<Band>> = bands.collect();
-        let is_lit = |x: &[Triple<f32>]| x.as_flattened().iter().any(|&x| x != 0.0);
-        Team {
+        let is_nonzero = |x: &[Triple<f32>]| x.as_flattened().iter().any(|&x| x != 0.0);
+        Workers {
             set,
             matrix,
             triples,
             values: Shared::new(triples),
             products: Shared::new(triples * bands.len()),
             bands,
-            lit: of_bands().map(|x| AtomicBool::new(is_lit(x))).collect(),
-            claims: (0..members).map(|_| Apart::default()).collect(),
-            done: Apart::default(),
+            nonzero: of_bands().map(|x| AtomicBool::new(is_nonzero(x))).collect(),
+            claims: (0..count).map(|_| CachePadded::default()).collect(),
+            done: CachePadded::default(),
             is_over: AtomicBool::new(false),
             has_failed: AtomicBool::new(false),
         }
@@ -114,17 +125,17 @@ impl<'a> Team<'a> {
     }
 
     /// Whether a band has values other than zero.
-    pub(super) fn is_lit(&self, band: usize) -> bool {
-        self.lit[band].load(Ordering::Relaxed)
+    pub(super) fn is_nonzero(&self, band: usize) -> bool {
+        self.nonzero[band].load(Ordering::Relaxed)
     }
 
-    /// How many members there are.
+    /// How many workers there are.
     pub(super) fn size(&self) -> usize {
         self.claims.len()
     }
 
     /// Leads the step in which a block is the next one.
-    pub(super) fn lead(&self, block: usize, leader: &mut Member<'a, '_>) {
+    pub(super) fn lead(&self, block: usize, leader: &mut Worker<'a, '_>) {
         self.open(block);
         leader.take_bands();
         self.wait_for(self.bands_of(block));
@@ -145,12 +156,12 @@ impl<'a> Team<'a> {
         assert!(!has_failed(), "a helper has panicked");
     }
 
-    /// Takes part in all steps, as a member other than the first, until the team is dismissed.
+    /// Takes part in all steps, as a worker other than the first, until all are dismissed.
     pub(super) fn help(&self, index: usize) {
         let _guard = TellPanic(&self.has_failed);
-        let mut member = Member::new(self, index);
+        let mut worker = Worker::new(self, index);
         while !self.is_over.load(Ordering::Acquire) {
-            let seen = member.take_bands();
+            let seen = worker.take_bands();
             wait_while(|| {
                 let is_same = self.claims[index].0.load(Ordering::Acquire) / STEP == seen;
                 is_same && !self.is_over.load(Ordering::Acquire)
@@ -158,13 +169,13 @@ impl<'a> Team<'a> {
         }
     }
 
-    /// Claims a band of a member, in the step whose number comes too.
+    /// Claims a band of a worker, in the step whose number comes too.
     pub(super) fn claim(&self, owner: usize, end: End) -> (u64, Option<Claim>) {
         let claims = self.claims[owner].0.fetch_add(end as u64, Ordering::AcqRel);
         let number = claims / STEP;
         let claim = |block: u64| {
             let block = block as usize;
-            let bound = |member: usize| member * self.bands_of(block) / self.size();
+            let bound = |worker: usize| worker * self.bands_of(block) / self.size();
             let run = bound(owner)..bound(owner + 1);
             let (before, after) = (claims % End::Back as u64, claims % STEP / End::Back as u64);
             let mut left = run.start + before as usize..run.end.saturating_sub(after as usize);
@@ -182,7 +193,7 @@ impl<'a> Team<'a> {
         (number, number.checked_sub(1).and_then(claim))
     }
 
-    /// Tells that a member has done so many bands.
+    /// Tells that a worker has done so many bands.
     pub(super) fn count(&self, bands: usize) {
         self.done.0.fetch_add(bands, Ordering::AcqRel);
     }
@@ -202,8 +213,8 @@ impl<'a> Team<'a> {
         self.values.set(0, values);
         let (band, column) = (block * BLOCK / WIDTH, block * BLOCK % WIDTH);
         self.band(band).set(column, values, below);
-        if !is_dark(values) {
-            self.lit[band].store(true, Ordering::Relaxed);
+        if !is_zero(values) {
+            self.nonzero[band].store(true, Ordering::Relaxed);
         }
     }
 
@@ -251,9 +262,9 @@ mod tests {
     use std::panic::{AssertUnwindSafe, catch_unwind};
 
     /// The bands that claims of both ends, in turn, give of a run, and those that follow them.
-    fn claimed(team: &Team<'_>, owner: usize) -> Vec<(usize, Option<usize>)> {
+    fn claimed(workers: &Workers<'_>, owner: usize) -> Vec<(usize, Option<usize>)> {
         let ends = [End::Front, End::Back].into_iter().cycle();
-        let claims = ends.map_while(|end| team.claim(owner, end).1);
+        let claims = ends.map_while(|end| workers.claim(owner, end).1);
         claims.map(|claim| (claim.band, claim.following)).collect()
     }
 
@@ -261,29 +272,29 @@ mod tests {
     fn every_band_is_claimed_once_a_step() {
         let size = 7 * WIDTH;
         let matrix = SymmetricMatrix::new(size, vec![0.0; packed_len(size)]).unwrap();
-        let team = Team::new(
+        let workers = Workers::new(
             InstructionSet::current(),
             &matrix,
             &vec![[1.0; 3]; size],
             1,
             2,
         );
-        assert!(claimed(&team, 0).is_empty(), "before the first step");
+        assert!(claimed(&workers, 0).is_empty(), "before the first step");
         for block in [size / BLOCK, 5 * WIDTH / BLOCK] {
-            team.open(block);
-            let bands = team.bands_of(block);
-            let runs = [claimed(&team, 0), claimed(&team, 1)];
+            workers.open(block);
+            let bands = workers.bands_of(block);
+            let runs = [claimed(&workers, 0), claimed(&workers, 1)];
             let first = |run: &[(usize, Option<usize>)]| run[0];
             assert_eq!(first(&runs[0]), (0, Some(1)));
             assert_eq!(first(&runs[1]), (bands / 2, Some(bands / 2 + 1)));
             let mut all: Vec<usize> = runs.concat().into_iter().map(|claim| claim.0).collect();
             all.sort_unstable();
             assert_eq!(all, (0..bands).collect::<Vec<usize>>());
-            assert!(claimed(&team, 0).is_empty(), "all are taken");
+            assert!(claimed(&workers, 0).is_empty(), "all are taken");
         }
-        team.open(size / BLOCK);
-        assert_eq!(team.claim(1, End::Back).1.unwrap().band, 6);
-        let claim = team.claim(1, End::Back).1.unwrap();
+        workers.open(size / BLOCK);
+        assert_eq!(workers.claim(1, End::Back).1.unwrap().band, 6);
+        let claim = workers.claim(1, End::Back).1.unwrap();
         assert_eq!((claim.band, claim.following), (5, Some(4)));
         assert_eq!((claim.block, claim.first), (size / BLOCK, 3));
     }
@@ -294,16 +305,16 @@ mod tests {
         let size = 4 * WIDTH;
         let matrix = SymmetricMatrix::new(size, vec![0.0; packed_len(size)]).unwrap();
         let x = vec![[1.0; 3]; size];
-        let team = Team::new(InstructionSet::current(), &matrix, &x, 1, 2);
+        let workers = Workers::new(InstructionSet::current(), &matrix, &x, 1, 2);
         let poison = || {
-            let _band = team.band(3);
+            let _band = workers.band(3);
             panic!("on purpose");
         };
         assert!(catch_unwind(AssertUnwindSafe(poison)).is_err());
         let block = size / BLOCK - 1;
-        team.open(block);
-        assert!(catch_unwind(AssertUnwindSafe(|| team.help(1))).is_err());
-        let wait = || team.wait_for(team.bands_of(block));
+        workers.open(block);
+        assert!(catch_unwind(AssertUnwindSafe(|| workers.help(1))).is_err());
+        let wait = || workers.wait_for(workers.bands_of(block));
         assert!(catch_unwind(AssertUnwindSafe(wait)).is_err());
     }
 }

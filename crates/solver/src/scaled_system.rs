@@ -8,12 +8,12 @@ use radiosity_matrix::{Exchange, Triple};
 pub(crate) type Values<T> = Vec<Triple<T>>;
 
 /// Relative changes below this may change nothing, in single precision.
-pub(crate) const LOST: f64 = 1.0 / (1 << 24) as f64;
+pub(crate) const UNIT_ROUNDOFF: f64 = 1.0 / (1 << 24) as f64;
 
 /// `x_i = E_i + rho_i sum_j F_ij x_j`, for each channel of each light in units of its own largest
 /// emission: channels know nothing of each other, and no square overflows or vanishes, however
 /// bright or faint one of them is.
-pub(crate) struct Problem<'a> {
+pub(crate) struct ScaledSystem<'a> {
     pub(crate) exchange: &'a dyn Exchange,
     /// Areas that exchange light, relative to the total of all.
     pub(crate) areas: Vec<f64>,
@@ -29,8 +29,8 @@ pub(crate) struct Problem<'a> {
     norms: Vec<Rgb>,
 }
 
-impl<'a> Problem<'a> {
-    pub(crate) fn new(system: &System<'a>) -> Problem<'a> {
+impl<'a> ScaledSystem<'a> {
+    pub(crate) fn new(system: &System<'a>) -> ScaledSystem<'a> {
         let total: f64 = system.areas().iter().sum();
         let areas: Vec<f64> = system.areas().iter().map(|area| area / total).collect();
         let reflectance = system.reflectance.iter().zip(&areas);
@@ -42,7 +42,7 @@ impl<'a> Problem<'a> {
             lights.map(move |(light, unit)| std::array::from_fn(|c| (light[i][c] / unit[c]) as f32))
         };
         let emission: Values<f32> = (0..system.size()).flat_map(at).collect();
-        let mut problem = Problem {
+        let mut scaled = ScaledSystem {
             exchange: system.exchange,
             areas,
             reflectance,
@@ -50,8 +50,8 @@ impl<'a> Problem<'a> {
             units,
             norms: Vec::new(),
         };
-        problem.norms = problem.norms_of(|k| problem.emission[k].map(f64::from));
-        problem
+        scaled.norms = scaled.norms_of(|k| scaled.emission[k].map(f64::from));
+        scaled
     }
 
     /// How many lights there are.

@@ -1,15 +1,15 @@
 //! What one thread knows of a sweep, and does in it.
 
-use super::band::{Block, BlockInBand, OfRows, blocks_of, is_dark};
+use super::band::{Block, BlockInBand, OfRows, blocks_of, is_zero};
 use super::step::Step;
-use super::team::{Claim, End, Team};
+use super::workers::{Claim, End, Workers};
 
 /// After so many blocks, sums in single precision become part of those in double precision.
-const SETTLING: usize = 4;
+const FLUSHING: usize = 4;
 
-/// One of a team.
-pub(super) struct Member<'a, 't> {
-    team: &'t Team<'a>,
+/// One of the workers.
+pub(super) struct Worker<'a, 't> {
+    workers: &'t Workers<'a>,
     index: usize,
     /// The number of the next block.
     block: Option<usize>,
@@ -22,11 +22,11 @@ pub(super) struct Member<'a, 't> {
     products: Vec<OfRows<f32>>,
 }
 
-impl<'a, 't> Member<'a, 't> {
-    pub(super) fn new(team: &'t Team<'a>, index: usize) -> Member<'a, 't> {
-        let of_triples = || vec![OfRows::default(); team.triples];
-        Member {
-            team,
+impl<'a, 't> Worker<'a, 't> {
+    pub(super) fn new(workers: &'t Workers<'a>, index: usize) -> Worker<'a, 't> {
+        let of_triples = || vec![OfRows::default(); workers.triples];
+        Worker {
+            workers,
             index,
             block: None,
             last: None,
@@ -40,11 +40,11 @@ impl<'a, 't> Member<'a, 't> {
     /// Takes bands of the current step until there are no more; gives its number.
     pub(super) fn take_bands(&mut self) -> u64 {
         let (number, mut bands) = self.take_run(self.index, End::Front);
-        for other in (self.index + 1..self.team.size()).chain(0..self.index) {
+        for other in (self.index + 1..self.workers.size()).chain(0..self.index) {
             bands += self.take_run(other, End::Back).1;
         }
         if bands > 0 {
-            self.team.count(bands);
+            self.workers.count(bands);
         }
         number
     }
@@ -53,7 +53,7 @@ impl<'a, 't> Member<'a, 't> {
     fn take_run(&mut self, owner: usize, end: End) -> (u64, usize) {
         let mut bands = 0;
         loop {
-            let (number, claim) = self.team.claim(owner, end);
+            let (number, claim) = self.workers.claim(owner, end);
             let Some(claim) = claim else {
                 return (number, bands);
             };
@@ -64,7 +64,7 @@ impl<'a, 't> Member<'a, 't> {
     }
 
     fn turn_to(&mut self, block: usize) {
-        let matrix = self.team.matrix;
+        let matrix = self.workers.matrix;
         if self.block == Some(block) {
             return;
         }
@@ -77,36 +77,40 @@ impl<'a, 't> Member<'a, 't> {
             self.next = Block::new(matrix, block);
         }
         self.after_next = Block::new(matrix, block + 1);
-        self.team.values(&mut self.values);
-        self.last = self.last.take().filter(|_| !is_dark(&self.values));
+        self.workers.values(&mut self.values);
+        self.last = self.last.take().filter(|_| !is_zero(&self.values));
         self.block = Some(block);
     }
 
     fn step(&mut self, claim: &Claim) {
-        let (team, band) = (self.team, claim.band);
+        let (workers, band) = (self.workers, claim.band);
         let last = self.last.as_ref().map(|last| last.in_band(band));
-        let next = lit(team, &self.next, band);
-        let ahead = match claim.following {
-            Some(band) => lit(team, &self.next, band),
-            None => lit(team, &self.after_next, claim.first),
+        let next = nonzero(workers, &self.next, band);
+        let prefetched = match claim.following {
+            Some(band) => nonzero(workers, &self.next, band),
+            None => nonzero(workers, &self.after_next, claim.first),
         };
         if next.is_none() {
             self.products.fill(OfRows::default());
         }
-        let is_at_end = claim.block == blocks_of(team.matrix);
-        team.set.run(Step {
-            band: &mut team.band(band),
+        let is_at_end = claim.block == blocks_of(workers.matrix);
+        workers.set.run(Step {
+            band: &mut workers.band(band),
             last: last.map(|last| (last, &self.values[..])),
             next: next.map(|next| (next, &mut self.products[..])),
-            ahead,
-            settles: is_at_end || claim.block.is_multiple_of(SETTLING),
+            prefetched,
+            flushes: is_at_end || claim.block.is_multiple_of(FLUSHING),
         });
-        team.set_products(band, &self.products);
+        workers.set_products(band, &self.products);
     }
 }
 
 /// A block in a band, unless that is dark, so that there is nothing to multiply.
-fn lit<'b>(team: &Team<'_>, block: &'b Option<Block<'_>>, band: usize) -> Option<BlockInBand<'b>> {
-    let block = block.as_ref().filter(|_| team.is_lit(band));
+fn nonzero<'b>(
+    workers: &Workers<'_>,
+    block: &'b Option<Block<'_>>,
+    band: usize,
+) -> Option<BlockInBand<'b>> {
+    let block = block.as_ref().filter(|_| workers.is_nonzero(band));
     block.map(|block| block.in_band(band))
 }
