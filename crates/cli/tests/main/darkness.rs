@@ -192,6 +192,11 @@ fn closed_scenes_with_holes_or_turned_walls_are_told() {
     walls.push(lid);
     place.write("box.vs3", &scene(&walls));
     assert!(!run(&place).contains("warning"));
+    // A plate in the middle of the box, which only blocks, opens nothing.
+    let plate = "V 9 0.5 0.5 0.5\nV 10 1.5 0.5 0.5\nV 11 1.5 1.5 0.5\n\
+        O 7 9 10 11 0 0 0 0.9 plate\nEnd\n";
+    place.write("box.vs3", &scene(&walls).replace("End\n", plate));
+    assert!(!run(&place).contains("warning"));
     walls[5].1.reverse();
     place.write("box.vs3", &scene(&walls));
     let found = run(&place);

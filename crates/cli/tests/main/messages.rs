@@ -9,6 +9,10 @@ use std::fs;
 const PLATE: &str = "C encl=1 eps=1e-4\nF 3\nV 1 0 0 0\nV 2 1 0 0\nV 3 0 1 0\n\
     S 1 1 2 3 0 0 0 0.9 plate\n";
 
+/// A triangle in front of the back of another.
+const AWAY: &str = "F 3\nV 1 0 0 0\nV 2 1 0 0\nV 3 0 1 0\nV 4 0 0 1\nV 5 1 0 1\nV 6 0 1 1\n\
+    S 1 1 2 3 0 0 0 0.9 below\nS 2 4 5 6 0 0 0 0.9 above\n";
+
 /// Scenes that deserve a word.
 fn place() -> Place {
     let place = Place::new();
@@ -46,6 +50,7 @@ fn place() -> Place {
         &SCENE.replace("[1, 0, 0], edge_b", "[4000, 0, 0], edge_b"),
     );
     place.write("plate.vs3", PLATE);
+    place.write("away.vs3", AWAY);
     place.write("text.ppm", "P3 1 1 255 9 9 9\n");
     place.write("table.csv", "surface,ia,ib,B_r,B_g,B_b\nfloor,0,0,1,1,1\n");
     place.write("odd.csv", "surface,ia\nfloor,0\n");
@@ -76,6 +81,7 @@ fn notes_and_warnings_are_for_strangers() {
         "check good.toml --mode regular --tolerance 1e-3 --pairs 9 --seed 1",
         "check good.toml --points 4",
         "form-factors plate.vs3 --cache c --closure",
+        "form-factors away.vs3 --cache c",
         "form-factors good.toml --cache c --mode regular --points 1 --divisions 8",
         "form-factors good.toml --cache c --mode monte-carlo --points 2 --divisions 8",
         "solve good.toml --cache c --max-sweeps 1",
