@@ -187,7 +187,7 @@ pub struct CheckArgs {
 /// `inspect`.
 #[derive(Debug, Args)]
 pub struct InspectCommand {
-    /// A cached file, by its path or by the name that `cache list` gives
+    /// A cached file: its path, or in the default cache the name that `cache list` gives
     pub file: PathBuf,
     /// The scene, for the names of its surfaces; without them surfaces are counted from 1 [default:
     /// the one that used the file last, if its name is enough to find it]

@@ -37,6 +37,8 @@ pub(crate) fn closed_line(rows: &RowSummary) -> String {
 
 /// A change of a factor, in relation to itself, that is a rounding.
 const ROUNDING: f64 = 1e-12;
+/// Rows that sum to 1 up to this are closed: single precision has no more digits.
+const CLOSED: f64 = 1e-6;
 
 /// How rows were made to sum to 1, if they were.
 pub(crate) fn closure_line(rows: &RowSummary) -> Option<String> {
@@ -47,6 +49,13 @@ pub(crate) fn closure_line(rows: &RowSummary) -> Option<String> {
              none, or their rows sum to 1 already"
                 .to_owned(),
         );
+    }
+    if closure.residual > CLOSED {
+        return Some(format!(
+            "warning: rows that see fronts alone could not be scaled to sum to 1: they miss it by \
+             up to {:.1e}",
+            closure.residual
+        ));
     }
     Some(format!(
         "rows that see fronts alone were scaled to sum to 1: no factor changed by more than {:.1e} \
@@ -59,8 +68,8 @@ pub(crate) fn closure_line(rows: &RowSummary) -> Option<String> {
 pub(crate) fn blind_line(rows: &RowSummary) -> Option<String> {
     let is_blind = rows.mean == 0.0 && rows.max_error > 0.0 && rows.backs > 0.0;
     is_blind.then(|| {
-        "warning: no patch sees a front, and all form factors are 0: surfaces face the other way \
-         where the order of their corners is reversed"
+        "warning: no patch sees a front, and all form factors are 0: reverse the order of the \
+         corners of surfaces that should face each other"
             .to_owned()
     })
 }

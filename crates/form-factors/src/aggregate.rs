@@ -38,7 +38,7 @@ impl FormFactors {
         for (&part, area) in part_of.iter().zip(&self.areas) {
             areas[part] += area;
         }
-        let mut factors = self.exchange.areas_between(part_of, parts);
+        let mut factors = self.exchange.exchange_areas_between(part_of, parts);
         for (row, area) in factors.chunks_mut(parts.max(1)).zip(&areas) {
             row.iter_mut()
                 .for_each(|factor| *factor = quotient(*factor, *area));

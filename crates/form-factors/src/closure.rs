@@ -99,7 +99,8 @@ impl Closure {
             exchange,
             rows: form_factors.rows.iter().enumerate().map(row).collect(),
             areas,
-            classes: form_factors.classes,
+            // They are those of the factors before.
+            classes: None,
             closure: Some(self.facts),
         }
     }

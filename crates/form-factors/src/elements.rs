@@ -15,7 +15,7 @@ pub(crate) fn visible_share(row: &RowFacts) -> f64 {
     }
 }
 
-/// By patch, the areas of elements, which can be seen of these areas.
+/// By patch, the area of its element: what can be seen of an area.
 pub(crate) fn visible_areas(areas: &[f64], rows: &[RowFacts]) -> Vec<f64> {
     let visible = |(area, row): (&f64, &RowFacts)| match visible_share(row) {
         0.0 => *area,

@@ -87,7 +87,8 @@ pub struct FormFactors {
     pub areas: Vec<f64>,
     /// `A_i F_ij`, and the areas of *elements*: of that part of a patch that exchanges light, of
     /// which a radiosity is the mean. By the accurate estimator it is what can be seen of the
-    /// patch. By the others it is all of it, as in textbooks.
+    /// patch, unless that is too little to be told apart. By the others it is all of it, as in
+    /// textbooks.
     pub exchange: DenseExchange,
     /// Per patch.
     pub rows: Vec<RowFacts>,
@@ -140,7 +141,7 @@ impl FormFactors {
     /// `F_ij`: the share of the power leaving patch `i` that arrives at patch `j`, in constant
     /// time. Of all of the patch, what cannot be seen of it included, which sees nothing of `j`.
     pub fn factor(&self, i: usize, j: usize) -> f64 {
-        quotient(self.exchange.area(i, j), self.areas[i])
+        quotient(self.exchange.exchange_area(i, j), self.areas[i])
     }
 
     /// The powers that arrive at backs, and that leave the scene, where `exitance` is what each

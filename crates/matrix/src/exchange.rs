@@ -7,7 +7,7 @@ use std::sync::Arc;
 /// Form factors `F_ij` as an operator on values of patches.
 ///
 /// `A_i F_ij` is one symmetric number for each pair, so that reciprocity `A_i F_ij = A_j F_ji`
-/// holds whatever the numbers are; and no patch sees itself.
+/// holds; and no patch sees itself. What has no area has no such numbers but 0.
 pub trait Exchange: fmt::Debug + Send + Sync {
     /// By patch, the area that exchanges light, in square scene units; 0 if none does.
     fn areas(&self) -> &[f64];
@@ -51,7 +51,7 @@ pub trait Sweep {
 /// // Two patches that see nothing but each other: A_0 F_01 = 1, of a total area of 1 + 2.
 /// let matrix = SymmetricMatrix::new(2, vec![1.0 / 3.0])?;
 /// let exchange = DenseExchange::new(matrix, vec![1.0, 2.0]);
-/// assert!((exchange.area(0, 1) - 1.0).abs() < 1e-7);
+/// assert!((exchange.exchange_area(0, 1) - 1.0).abs() < 1e-7);
 /// assert!((exchange.product(&[[0.0; 3], [1.0; 3]], 1)[0][0] - 1.0).abs() < 1e-7);
 /// # Ok::<(), radiosity_matrix::LengthMismatch>(())
 /// ```
@@ -115,7 +115,7 @@ impl DenseExchange {
 
     /// `A_i F_ij`, the direct exchange area of a pair (Hottel & Sarofim, "Radiative Transfer",
     /// 1967), in square scene units; in constant time.
-    pub fn area(&self, i: usize, j: usize) -> f64 {
+    pub fn exchange_area(&self, i: usize, j: usize) -> f64 {
         f64::from(self.matrix.get(i, j)) * self.unit
     }
 
@@ -132,7 +132,7 @@ impl DenseExchange {
 
     /// The sums of exchange areas between sets of patches: entry `a * parts + b` is that of all
     /// pairs `(i, j)` with `i` in set `a` and `j` in set `b`. Every `part_of[i]` is below `parts`.
-    pub fn areas_between(&self, part_of: &[usize], parts: usize) -> Vec<f64> {
+    pub fn exchange_areas_between(&self, part_of: &[usize], parts: usize) -> Vec<f64> {
         let mut sums = self.matrix.block_sums(part_of, parts);
         sums.iter_mut().for_each(|sum| *sum *= self.unit);
         sums

@@ -20,8 +20,8 @@ pub fn notes(scene: &Scene, mesh: &Mesh) -> Vec<String> {
     let size = mesh.bounds().extent().max_element();
     let far = (size >= FAR).then(|| {
         format!(
-            "note: the scene is {} units across; if these are millimetres, `scale = 0.001` of \
-             meshes makes metres, as powers in W need; the camera's numbers are metres then, too",
+            "note: the scene is {} units across; powers in W need metres: if these are \
+             millimetres, divide all lengths by 1,000 (`scale = 0.001` does so for a mesh)",
             grouped(size.round() as u64)
         )
     });
@@ -35,8 +35,8 @@ fn large_patch(scene: &Scene, mesh: &Mesh) -> Option<String> {
     let share = largest.area / total;
     (share > LARGE).then(|| {
         format!(
-            "note: a patch of `{}` is {:.0} % of all area, and light does not change within a \
-             patch: cut surfaces into smaller ones, as --max-patch-edge {} does",
+            "note: a patch of `{}` is {:.0} % of all area, and each patch has one mean of what \
+             it reflects: cut surfaces into smaller ones, as --max-patch-edge {} does",
             scene.surfaces[largest.surface.index()].name,
             100.0 * share,
             one_digit((total / ENOUGH).sqrt())

@@ -23,6 +23,7 @@ pub(crate) fn closed(
     let facts = |made: &FormFactors| FactorFacts::new(job.mesh, job.estimator, made);
     let mut blank = facts(raw);
     blank.closure = Some(ClosureFacts::default());
+    blank.classes = None;
     let begin = |store: &Store| job.begin_draft(store, id, &blank);
     let Some(mut draft) = store.map(begin).transpose()?.flatten() else {
         // The first is in memory already, so there must be room for another.

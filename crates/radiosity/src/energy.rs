@@ -1,6 +1,7 @@
 //! Where the power of lights goes.
 
 use radiosity_form_factors::FormFactors;
+use radiosity_matrix::Exchange;
 use radiosity_solver::{Power, Solution};
 use serde::{Deserialize, Serialize};
 
@@ -18,16 +19,24 @@ pub struct Energy {
 }
 
 impl Energy {
-    /// The balance of each light. What is lost is known from rays, and so independent of the form
-    /// factors.
-    pub(crate) fn of_lights(form_factors: &FormFactors, solution: &Solution) -> Vec<Energy> {
-        let lights = solution.report.powers.iter().zip(&solution.lights);
-        let balance = |(power, radiosity): (&Power, &Vec<[f32; 3]>)| {
+    /// The balance of each light, of which the emission is given. What is lost is known from rays,
+    /// and so independent of the form factors.
+    pub(crate) fn of_lights(
+        form_factors: &FormFactors,
+        solution: &Solution,
+        emission: &[Vec<[f64; 3]>],
+    ) -> Vec<Energy> {
+        let powers = solution.report.powers.iter();
+        let lights = powers.zip(&solution.lights).zip(emission);
+        let balance = |((power, radiosity), emission): ((&Power, &Vec<[f32; 3]>), &Vec<_>)| {
             let [to_backs, to_background] = form_factors.lost(radiosity);
+            // What of a patch is no element emits, too, and all of it meets backs.
+            let hidden = emitted_by_hidden(form_factors, emission);
+            let plus = |a: [f64; 3]| std::array::from_fn(|c| a[c] + hidden[c]);
             Energy {
-                emitted: power.emitted,
+                emitted: plus(power.emitted),
                 absorbed: power.absorbed,
-                to_backs,
+                to_backs: plus(to_backs),
                 to_background,
             }
         };
@@ -64,5 +73,57 @@ impl Energy {
             .filter(|&c| self.emitted[c] > 0.0)
             .map(|c| missing[c].abs() / self.emitted[c])
             .fold(0.0, f64::max)
+    }
+}
+
+/// The power that parts of patches emit that are no elements.
+fn emitted_by_hidden(form_factors: &FormFactors, emission: &[[f64; 3]]) -> [f64; 3] {
+    let elements = form_factors.exchange.areas();
+    let hidden = form_factors
+        .areas
+        .iter()
+        .zip(elements)
+        .map(|(area, element)| area - element);
+    let add = |sum: [f64; 3], (hidden, emission): (f64, &[f64; 3])| {
+        std::array::from_fn(|c| sum[c] + hidden * emission[c])
+    };
+    hidden.zip(emission).fold([0.0; 3], add)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_are_dimmed_light_by_light() {
+        let light = |scale: f64| Energy {
+            emitted: [10.0 * scale; 3],
+            absorbed: [7.0 * scale; 3],
+            to_backs: [scale; 3],
+            to_background: [2.0 * scale; 3],
+        };
+        let sum = Energy::sum(
+            &[light(1.0), light(0.1)],
+            &[[0.5, 1.0, 0.0], [2.0, 0.0, 1.0]],
+        );
+        let expected = |whole: f64| [0.5 * whole + 0.2 * whole, whole, 0.1 * whole];
+        for (found, whole) in [
+            (sum.emitted, 10.0),
+            (sum.absorbed, 7.0),
+            (sum.to_backs, 1.0),
+            (sum.to_background, 2.0),
+        ] {
+            for (found, expected) in found.into_iter().zip(expected(whole)) {
+                assert!((found - expected).abs() < 1e-12, "{sum:?}");
+            }
+        }
+        assert!(sum.imbalance() < 1e-12);
+        assert_eq!(Energy::sum(&[], &[]), Energy::default());
+        assert_eq!(Energy::default().imbalance(), 0.0);
+        let missing = Energy {
+            absorbed: [6.0; 3],
+            ..light(1.0)
+        };
+        assert!((missing.imbalance() - 0.1).abs() < 1e-12);
     }
 }

@@ -20,13 +20,17 @@ pub(crate) fn error_of(
 
 /// What serde says of types, in words that are no program's.
 fn plain(message: &str) -> String {
-    const TYPES: [(&str, &str); 6] = [
+    const TYPES: [(&str, &str); 10] = [
         ("expected struct MeshTable", "expected a table"),
         ("expected f64", "expected a number"),
-        ("expected u32", "expected a whole number"),
-        ("invalid type: map", "this is a table"),
+        ("expected u32", "expected a whole number from 0"),
         ("expected a sequence", "expected a list"),
-        ("invalid type: ", "this is a "),
+        ("invalid type: map", "this is a table"),
+        ("invalid type: sequence", "this is a list"),
+        ("invalid type: floating point", "this is the number"),
+        ("invalid type: integer", "this is the number"),
+        ("invalid type: string", "this is the text"),
+        ("invalid type: boolean", "this is"),
     ];
     let replace = |text: String, (from, to): (&str, &str)| text.replace(from, to);
     TYPES.into_iter().fold(message.to_owned(), replace)
@@ -37,17 +41,17 @@ fn help_for(source: &Source<'_>, message: &str) -> Option<String> {
     let known = [
         (
             "map, expected a sequence",
-            "write the name in two brackets, like [[surfaces]], once for each",
+            "write a list in brackets; of tables, the name in two brackets, like [[surfaces]]",
         ),
         (
             "map, expected a string",
-            "names with dots or blanks need quotes, like \"Red.001\"",
+            "write a name in quotes; of names with dots all, like \"Red.001\" = \"red\"",
         ),
         (
             "expected struct MeshTable",
             "write mesh = { file = \"NAME.obj\" }",
         ),
-        ("unicode", "write / instead of \\ in paths"),
+        ("unicode value", "write / instead of \\ in paths"),
     ];
     if let Some((_, help)) = known.into_iter().find(|(part, _)| message.contains(part)) {
         return Some(help.to_owned());

@@ -2,7 +2,7 @@
 
 use crate::scaled_system::UNIT_ROUNDOFF;
 
-/// Where `(p, M p)` is less of `(p, p / gain)` than this, a quarter of it or more is rounding, and
+/// Where `(p, M p)` is less of `(p, w p)` than this, a quarter of it or more is rounding, and
 /// says nothing of how far to go.
 const INDISTINCT: f64 = 4.0 * UNIT_ROUNDOFF;
 
@@ -11,11 +11,11 @@ const INDISTINCT: f64 = 4.0 * UNIT_ROUNDOFF;
 pub(crate) struct Channel {
     /// The norm of `z`, relative to that of the emission.
     pub(crate) residual: f64,
-    /// `(z, z / gain)`.
+    /// `(z, w z)`.
     square: f64,
     /// `alpha` and the `beta` after it.
     steps: Vec<(f64, f64)>,
-    /// The smallest eigenvalue of `gain M` as far as it is known.
+    /// The smallest eigenvalue of `M / w` as far as it is known.
     pub(crate) least: f64,
     /// Whether it takes no more steps.
     pub(crate) rests: bool,
@@ -37,14 +37,14 @@ impl Default for Channel {
 }
 
 impl Channel {
-    /// Begins anew at a residual of which `(z, z / gain)` is known.
+    /// Begins anew at a residual of which `(z, w z)` is known.
     pub(crate) fn begin(&mut self, square: f64) {
         self.square = square;
         self.steps.clear();
         self.is_stuck = false;
     }
 
-    /// How far to go, where `(p, M p)` is the difference of `(p, p / gain)` and `(p, S p)`.
+    /// How far to go, where `(p, M p)` is the difference of `(p, w p)` and `(p, A F p)`.
     pub(crate) fn alpha(&mut self, length: f64, reflected: f64) -> f64 {
         if self.rests || self.square == 0.0 {
             return 0.0;
@@ -58,7 +58,7 @@ impl Channel {
         }
     }
 
-    /// Takes note of a step that has led to `(z, z / gain)`; gives the beta of the next.
+    /// Takes note of a step that has led to `(z, w z)`; gives the beta of the next.
     pub(crate) fn finish_step(&mut self, alpha: f64, square: f64) -> f64 {
         if alpha == 0.0 {
             return 0.0;

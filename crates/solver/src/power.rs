@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// Powers of a light per channel, in W (exitance times square scene units).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Power {
-    /// Emitted by all patches.
+    /// Emitted by the areas that exchange light.
     pub emitted: Rgb,
     /// Absorbed by the fronts of all patches.
     pub absorbed: Rgb,

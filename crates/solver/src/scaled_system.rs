@@ -32,7 +32,11 @@ pub(crate) struct ScaledSystem<'a> {
 impl<'a> ScaledSystem<'a> {
     pub(crate) fn new(system: &System<'a>) -> ScaledSystem<'a> {
         let total: f64 = system.areas().iter().sum();
-        let areas: Vec<f64> = system.areas().iter().map(|area| area / total).collect();
+        let areas: Vec<f64> = system
+            .areas()
+            .iter()
+            .map(|&area| ratio(area, total))
+            .collect();
         let reflectance = system.reflectance.iter().zip(&areas);
         let reflectance = reflectance.map(|(rho, &area)| if area > 0.0 { *rho } else { [0.0; 3] });
         let reflectance = reflectance.collect();

@@ -61,6 +61,7 @@ fn place() -> Place {
 /// Of all that is printed, notes and warnings with the name of the place left out.
 fn remarks(place: &Place, arguments: &str) -> String {
     let (_, stdout, stderr) = place.run(arguments);
+    assert!(!stderr.contains("panicked"), "{stderr}");
     let lines = stderr.lines().chain(stdout.lines()).map(str::trim);
     let lines = lines.filter(|line| line.starts_with("note:") || line.starts_with("warning:"));
     lines.map(|line| format!("{line}\n")).collect()

@@ -182,7 +182,7 @@ fn neither_threads_nor_instruction_sets_have_a_part_in_the_result() {
     for (count, threads) in [(2, 2), (3, 3), (5, 5), (9, 9), (3, 1), (5, 2)] {
         assert!(
             run(InstructionSet::current(), count, threads) == expected,
-            "{count} count, {threads} threads"
+            "{count} workers, {threads} threads"
         );
     }
     for set in InstructionSet::available() {

@@ -24,7 +24,8 @@ pub struct PatchLight {
 }
 
 impl PatchLight {
-    /// The mean radiosities over whole patches: what is no element does nothing but emit.
+    /// The mean radiosities over whole patches, without what other faces cover: what is no element
+    /// does nothing but emit.
     pub fn mean_radiosity(&self) -> Vec<[f32; 3]> {
         let patches = self.emission.iter().zip(&self.radiosity);
         let mean = |((emission, radiosity), share): ((&[f32; 3], &[f32; 3]), &f32)| {

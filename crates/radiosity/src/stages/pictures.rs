@@ -174,8 +174,15 @@ impl Shown {
         let mut shown = Shown::light(patches, light);
         for (patch, emission) in light.emission.iter().enumerate() {
             if *emission != [0.0; 3] {
-                for of_patch in [&mut shown.value, &mut shown.emission, &mut shown.direct] {
-                    of_patch[patch] = [0.0; 3];
+                let Shown {
+                    value,
+                    emission,
+                    direct,
+                    direct_gain,
+                    ..
+                } = &mut shown;
+                for of_patches in [value, emission, direct, direct_gain] {
+                    of_patches[patch] = [0.0; 3];
                 }
             }
         }

@@ -64,7 +64,7 @@ fn solve_from<'a>(
                 report: solution.report.clone(),
                 rows: made.rows.clone(),
                 lights: factors.light_names(),
-                energies: Energy::of_lights(&made.form_factors, &solution),
+                energies: Energy::of_lights(&made.form_factors, &solution, &factors.patches.lights),
                 elements: made.form_factors.element_shares(),
                 visible: made.form_factors.visible_shares(),
             };

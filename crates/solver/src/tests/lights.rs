@@ -15,7 +15,7 @@ fn two_lights() -> Case {
 fn relit_is_solved_anew() {
     let case = two_lights();
     let dimming = [[0.3, 0.2, 1.0], [7.0, 0.0, 2.0]];
-    let superpose = superpose(&case.solve(&Params::default()).lights, &dimming);
+    let superposed = superpose(&case.solve(&Params::default()).lights, &dimming);
     let mut dimmed = two_lights();
     let mut sum = vec![[0.0; 3]; 30];
     for (light, dim) in case.lights.iter().zip(&dimming) {
@@ -25,11 +25,11 @@ fn relit_is_solved_anew() {
     }
     dimmed.lights = vec![sum];
     let fresh = &dimmed.solve(&Params::default()).lights[0];
-    for (superpose, fresh) in superpose.as_flattened().iter().zip(fresh.as_flattened()) {
+    for (superposed, fresh) in superposed.as_flattened().iter().zip(fresh.as_flattened()) {
         // Residuals of 1e-6 of emissions that are at most 40 times the radiosity of the others.
         assert!(
-            (superpose - fresh).abs() <= 1e-5 * fresh,
-            "{superpose} {fresh}"
+            (superposed - fresh).abs() <= 1e-5 * fresh,
+            "{superposed} {fresh}"
         );
     }
 }

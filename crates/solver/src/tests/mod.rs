@@ -121,7 +121,7 @@ fn random_case() -> impl Strategy<Value = Case> {
 
 /// The irradiance at a patch, on full rows, in double precision.
 fn irradiance(case: &Case, i: usize, x: &[Rgb]) -> Rgb {
-    let factor = |j: usize| case.exchange.area(i, j) / case.exchange.areas()[i];
+    let factor = |j: usize| case.exchange.exchange_area(i, j) / case.exchange.areas()[i];
     std::array::from_fn(|c| (0..x.len()).map(|j| factor(j) * x[j][c]).sum())
 }
 

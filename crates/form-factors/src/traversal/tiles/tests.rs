@@ -19,7 +19,7 @@ fn rectangle(a: f64, b: f64) -> Shape {
 }
 
 /// A zigzag strip of nine quads of four patches each.
-fn row_run() -> Shape {
+fn zigzag() -> Shape {
     let position = |k: usize| DVec3::new((k / 2) as f64, (k % 2) as f64, (k / 2 % 2) as f64);
     let face = |k: u32| vec![2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1];
     Shape::Mesh(PolygonMesh {
@@ -34,7 +34,7 @@ fn every_patch_is_in_one_tile_and_groups_keep_order() {
     let surfaces = [
         surface(rectangle(1.0, 1.0), 12, 12),
         surface(triangle, 5, 5),
-        surface(row_run(), 2, 2),
+        surface(zigzag(), 2, 2),
         surface(rectangle(1.0, 1.0), 1, 2),
         surface(rectangle(5.0, 1.0), 7, 9),
     ];
@@ -64,7 +64,7 @@ fn every_patch_is_in_one_tile_and_groups_keep_order() {
 fn row_runs_hold_consecutive_patches() {
     let surfaces = [
         surface(rectangle(1.0, 1.0), 12, 12),
-        surface(row_run(), 2, 2),
+        surface(zigzag(), 2, 2),
     ];
     let mesh = subdivide(&surfaces, Divisions::uniform(1)).unwrap();
     let tiling = Tiling::new(&mesh, &MergedFaces::new(&mesh));
@@ -115,7 +115,7 @@ fn tiles_of_slivers_are_around_them() {
 
 #[test]
 fn small_faces_share_tiles() {
-    let mesh = subdivide(&[surface(row_run(), 2, 2)], Divisions::uniform(1)).unwrap();
+    let mesh = subdivide(&[surface(zigzag(), 2, 2)], Divisions::uniform(1)).unwrap();
     let tiles = Tiling::new(&mesh, &MergedFaces::new(&mesh)).tiles;
     assert_eq!(tiles.len(), 5);
     assert!(tiles[0].bound.face.is_none());
