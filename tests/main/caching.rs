@@ -11,7 +11,9 @@ use radiosity::geometry::{Camera, DVec3, Divisions};
 use radiosity::image::Exposure;
 use radiosity::scene::{Material, Scene};
 use radiosity::solver::{Method, Relaxation};
-use radiosity::{Context, How, Observer, Project, Silent, Stage, estimate, solve_anew, subdivide};
+use radiosity::{
+    Context, Observer, Project, Provenance, Silent, Stage, estimate, solve_anew, subdivide,
+};
 use radiosity_tests::shipped;
 use std::fs;
 use std::sync::Mutex;
@@ -237,7 +239,7 @@ fn losing_the_form_factors_costs_nothing_while_the_solution_stands() {
     let solved = bench.solve();
     assert_eq!(
         (solved.origin.how, solved.form_factors.how),
-        (How::Cached, How::NotNeeded)
+        (Provenance::Cached, Provenance::NotNeeded)
     );
 }
 

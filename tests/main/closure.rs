@@ -4,7 +4,7 @@ use radiosity::cache::Store;
 use radiosity::form_factors::Mode;
 use radiosity::geometry::Divisions;
 use radiosity::stages::FormFactorsMade;
-use radiosity::{Context, How, Project, Silent, estimate, solve, subdivide};
+use radiosity::{Context, Project, Provenance, Silent, estimate, solve, subdivide};
 use radiosity_tests::shipped;
 use std::path::Path;
 use tempfile::TempDir;
@@ -44,10 +44,10 @@ fn closing_leaves_what_was_estimated_alone() {
     let second = made(&closed, Some(&store));
     assert_eq!(
         second.origin.how,
-        How::Computed("nothing cached yet".to_owned())
+        Provenance::Computed("nothing cached yet".to_owned())
     );
-    assert_eq!(made(&raw, Some(&store)).origin.how, How::Cached);
-    assert_eq!(made(&closed, Some(&store)).origin.how, How::Cached);
+    assert_eq!(made(&raw, Some(&store)).origin.how, Provenance::Cached);
+    assert_eq!(made(&closed, Some(&store)).origin.how, Provenance::Cached);
     assert_eq!(names(&folder).len(), 2);
     assert!(first.rows.closure.is_none() && second.rows.closure.is_some());
     let values = |made: &FormFactorsMade| made.form_factors.exchange.matrix().values().to_vec();

@@ -1,9 +1,9 @@
 //! Where the power goes, against rays that know nothing of form factors.
 
-use radiosity::Energy;
 use radiosity::form_factors::Mode;
-use radiosity::geometry::{DVec3, Mesh, Occluders, Patch, Polygon, Ray};
+use radiosity::geometry::{DVec3, Divisions, Mesh, Occluders, Patch, Polygon, Ray};
 use radiosity::stages::PatchLight;
+use radiosity::{Energy, Project};
 use radiosity_tests::{Chain, shipped};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -155,5 +155,50 @@ fn check_power(scenes: &[&str]) {
         println!("{name}: {imbalance:.1e} of the emission is missing, {most:.1e} may be");
         assert!(imbalance <= most, "{name}");
         assert_eq!(chain.made.rows.excessive, 0, "{name}");
+    }
+}
+
+/// A lamp of 1 x 2 whose lower half is inside of a box: all of it emits, and what is inside meets
+/// backs, whether patches are hidden as a whole or in part.
+#[test]
+fn hidden_parts_of_lamps_emit_onto_backs() {
+    let quad = |name: &str, material: &str, corners: [[f64; 3]; 4]| {
+        format!("[[surfaces]]\nname = \"{name}\"\nmaterial = \"{material}\"\nquad = {corners:?}\n")
+    };
+    let (low, high) = ([-0.5, -0.1, -0.1], [0.5, 1.1, 1.0]);
+    let corner = |k: usize| [0, 1, 2].map(|axis| if k >> axis & 1 == 0 { low } else { high }[axis]);
+    // Counter-clockwise from outside.
+    let sides = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    let sides = sides.iter().enumerate();
+    let sides = sides.map(|(k, side)| quad(&format!("side-{k}"), "white", side.map(corner)));
+    let lamp = [
+        [0.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 1.0, 2.0],
+        [0.0, 0.0, 2.0],
+    ];
+    let scene = format!(
+        "[materials.white]\nreflectance = 0.5\n\
+         [materials.lamp]\nreflectance = 0\nemission = 3\n{}{}",
+        sides.collect::<String>(),
+        quad("lamp", "lamp", lamp)
+    );
+    for divisions in [1, 4] {
+        let mut project = Project::parse("lamp.toml".as_ref(), &scene).unwrap();
+        project.params.discretization.default = Divisions::uniform(divisions);
+        let energy = Chain::of(&project).light().energy;
+        assert!((energy.emitted[GREEN] - 6.0).abs() < 1e-6, "{energy:?}");
+        // Half of it, and shares are known to a percent.
+        let to_backs = energy.to_backs[GREEN] / energy.emitted[GREEN];
+        println!("{divisions}: {to_backs:.4} to backs");
+        assert!((to_backs - 0.5).abs() < 0.02, "{divisions}: {energy:?}");
+        assert!(energy.imbalance() < 0.05, "{energy:?}");
     }
 }

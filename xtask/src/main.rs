@@ -6,7 +6,7 @@ mod tidy;
 
 use clap::{Parser, Subcommand};
 use generate::Generated;
-use radiosity_cli::{Command, EXIT_CODES, Site, parse_command_line, run};
+use radiosity_cli::{Command, EXIT_CODES, Folders, parse_command_line, run};
 use std::ffi::OsString;
 use std::path::Path;
 use std::process::{self, ExitCode};
@@ -55,7 +55,7 @@ fn main() -> ExitCode {
         Err(code) => return code,
     };
     match task {
-        Task::Radiosity(command) => run(&command, &Site::checkout(&root)),
+        Task::Radiosity(command) => run(&command, &Folders::checkout(&root)),
         Task::Bench { arguments } => bench(&arguments, &root),
         Task::Ci => ci::run(&root),
         Task::Tidy => tidy::run(&root),

@@ -1,8 +1,8 @@
 //! `cache list` and `cache clean`.
 
 use super::cache_args::{CacheAction, CacheCommand};
+use super::folders::Folders;
 use super::printable;
-use super::site::Site;
 use super::terminal::say;
 use crate::error::Error;
 use radiosity::cache::{Amount, Cleaned, Entry, Limits, Miss, Store};
@@ -10,8 +10,8 @@ use radiosity::words::{bytes, counted};
 
 const FILES: [&str; 2] = ["file", "files"];
 
-pub(crate) fn run(command: &CacheCommand, site: &Site) -> Result<(), Error> {
-    let folder = command.folder.as_ref().unwrap_or(&site.cache);
+pub(crate) fn run(command: &CacheCommand, folders: &Folders) -> Result<(), Error> {
+    let folder = command.folder.as_ref().unwrap_or(&folders.cache);
     let store = Store::new(folder);
     match command.action {
         CacheAction::List => list(&store),

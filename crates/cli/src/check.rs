@@ -1,8 +1,8 @@
 //! `check`.
 
 use super::args::CheckArgs;
+use super::folders::Folders;
 use super::run::with_threads;
-use super::site::Site;
 use super::terminal::{Terminal, say_json};
 use crate::check_report::Check;
 use crate::error::Error;
@@ -13,15 +13,19 @@ use radiosity::geometry::{Discretization, Mesh, count_patches};
 use radiosity::resources::Needs;
 use radiosity::{Context, Project, darkness, estimate, openings, subdivide};
 
-pub(super) fn run(args: &CheckArgs, site: &Site) -> Result<(), Error> {
-    let mut project = args.scene.load(site)?;
+pub(super) fn run(args: &CheckArgs, folders: &Folders) -> Result<(), Error> {
+    let mut project = args.scene.load(folders)?;
     args.factors.apply(&mut project.params.form_factors);
     project.params.check().map_err(radiosity::Error::from)?;
     with_threads(args.threads, || {
         let counted = counted_needs(&project)?;
         let fits = counted.check_memory();
         let check = match fits {
-            Ok(()) => found(&project, counted.patches, args.cache.store(site).as_ref())?,
+            Ok(()) => found(
+                &project,
+                counted.patches,
+                args.cache.store(folders).as_ref(),
+            )?,
             Err(_) => Check::counted(&project, &counted),
         };
         let terminal = Terminal::brief(args.json);

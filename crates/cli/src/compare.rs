@@ -3,10 +3,10 @@
 mod pictures;
 
 use super::compare_args::CompareCommand;
+use super::folders::Folders;
 use super::input::read;
 use super::printable;
 use super::run::check_folder_of;
-use super::site::Site;
 use super::terminal::{say, say_json};
 use crate::error::Error;
 use pictures::pictures;
@@ -37,11 +37,11 @@ struct Compared {
     left_out: String,
 }
 
-pub(crate) fn run(args: &CompareCommand, site: &Site) -> Result<(), Error> {
+pub(crate) fn run(args: &CompareCommand, folders: &Folders) -> Result<(), Error> {
     let project = args
         .scene
         .as_ref()
-        .map(|name| site.load(name.as_ref(), args.outside));
+        .map(|name| folders.load(name.as_ref(), args.outside));
     let project = project.transpose()?;
     if let Some(path) = &args.difference {
         check_folder_of(path)?;

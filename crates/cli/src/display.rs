@@ -1,12 +1,12 @@
 //! `render` and `display`.
 
 use super::args::DisplayCommand;
-use super::live::Live;
+use super::folders::Folders;
 use super::run::{make_folder, solved, with_threads};
 use super::save::Folder;
 use super::series::{Series, Sheet, check_names};
-use super::site::Site;
 use super::terminal::Terminal;
+use super::thumbnail::Thumbnail;
 use crate::error::Error;
 use crate::report::{DisplayReport, Report};
 use radiosity::geometry::Camera;
@@ -15,16 +15,16 @@ use radiosity::scene::Scene;
 use radiosity::{Context, Params, Project, estimate, expose, subdivide};
 use std::time::Instant;
 
-pub(super) fn run(args: &DisplayCommand, site: &Site) -> Result<(), Error> {
+pub(super) fn run(args: &DisplayCommand, folders: &Folders) -> Result<(), Error> {
     let Project {
         scene, mut params, ..
-    } = args.scene.load(site)?;
+    } = args.scene.load(folders)?;
     args.estimate.factors.apply(&mut params.form_factors);
     args.solve.apply(&mut params.solver);
     args.display.apply(&mut params.image);
     params.check().map_err(radiosity::Error::from)?;
     with_threads(args.estimate.threads, || {
-        display(args, &scene, &params, site)
+        display(args, &scene, &params, folders)
     })
 }
 
@@ -32,12 +32,12 @@ fn display(
     args: &DisplayCommand,
     scene: &Scene,
     params: &Params,
-    site: &Site,
+    folders: &Folders,
 ) -> Result<(), Error> {
     let dimming = args.lights.dimming(scene)?;
-    let folder = args.display.output.as_ref().unwrap_or(&site.output);
+    let folder = args.display.output.as_ref().unwrap_or(&folders.output);
     let terminal = Terminal::new(args.estimate.output);
-    let store = args.estimate.cache.store(site);
+    let store = args.estimate.cache.store(folders);
     let context = Context::new(store.as_ref(), &terminal);
     let patches = subdivide(scene, &params.discretization, context)?;
     let factors = estimate(&patches, &params.form_factors)?;
@@ -65,7 +65,7 @@ fn display(
         factors: &factors,
         looks: &looks,
         shots: &shots,
-        live: Live::new(!args.estimate.output.json && !args.display.no_live),
+        live: Thumbnail::new(!args.estimate.output.json && !args.display.no_live),
         folder: Folder::new(folder, &args.display.format, &solved, params, &dimming),
         sheet: Sheet::default(),
     };

@@ -1,9 +1,9 @@
 //! How form factors are estimated, on the command line.
 
 use super::choices::{MODES, choice};
+use super::folders::Folders;
 use super::parse::parse_number;
 use super::scene_args::set;
-use super::site::Site;
 use super::terminal::tell;
 use clap::Args;
 use radiosity::cache::Store;
@@ -111,8 +111,8 @@ pub struct CacheArgs {
 
 impl CacheArgs {
     /// The cache, unless nothing is to be read or written.
-    pub(super) fn store(&self, site: &Site) -> Option<Store> {
-        let folder = self.folder.as_ref().unwrap_or(&site.cache);
+    pub(super) fn store(&self, folders: &Folders) -> Option<Store> {
+        let folder = self.folder.as_ref().unwrap_or(&folders.cache);
         (!self.no_cache).then(|| Store::new(folder))
     }
 }

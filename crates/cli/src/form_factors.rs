@@ -2,8 +2,8 @@
 
 use super::args::FormFactorsCommand;
 use super::choices::ByArg;
+use super::folders::Folders;
 use super::run::{check_folder_of, with_threads, write_by};
-use super::site::Site;
 use super::terminal::Terminal;
 use crate::error::Error;
 use crate::report::Report;
@@ -16,19 +16,19 @@ use std::path::{Path, PathBuf};
 /// Exports of so many bytes are announced.
 const LARGE: u64 = 500_000_000;
 
-pub(super) fn run(args: &FormFactorsCommand, site: &Site) -> Result<(), Error> {
+pub(super) fn run(args: &FormFactorsCommand, folders: &Folders) -> Result<(), Error> {
     let export = args.export.as_deref();
     if let Some(path) = export {
         check_arguments(path, args)?;
     }
     let Project {
         scene, mut params, ..
-    } = args.scene.load(site)?;
+    } = args.scene.load(folders)?;
     args.estimate.factors.apply(&mut params.form_factors);
     params.check().map_err(radiosity::Error::from)?;
     let terminal = Terminal::new(args.estimate.output);
     with_threads(args.estimate.threads, || {
-        let store = args.estimate.cache.store(site);
+        let store = args.estimate.cache.store(folders);
         let context = Context::new(store.as_ref(), &terminal);
         let patches = subdivide(&scene, &params.discretization, context)?;
         let factors = estimate(&patches, &params.form_factors)?;

@@ -1,8 +1,8 @@
 //! `inspect`.
 
 use super::args::InspectCommand;
+use super::folders::Folders;
 use super::input::check_regular;
-use super::site::Site;
 use super::terminal::{say, say_json};
 use crate::error::Error;
 use crate::lines::{
@@ -18,9 +18,9 @@ use std::path::Path;
 /// The longest bar of the histogram, in characters.
 const LONGEST_BAR: f64 = 40.0;
 
-pub(super) fn run(args: &InspectCommand, site: &Site) -> Result<(), Error> {
+pub(super) fn run(args: &InspectCommand, folders: &Folders) -> Result<(), Error> {
     // A name alone, as `cache list` gives it, is that of a file in the cache.
-    let cached = site.cache.join(&args.file);
+    let cached = folders.cache.join(&args.file);
     let path = match args.file.exists() || !cached.is_file() {
         true => &args.file,
         false => &cached,
@@ -28,7 +28,7 @@ pub(super) fn run(args: &InspectCommand, site: &Site) -> Result<(), Error> {
     let unusable = |miss: Miss| unusable(path, &miss);
     check_regular(path)?;
     let opened = open(path).map_err(unusable)?;
-    let names = surface_names(path, args, site)?;
+    let names = surface_names(path, args, folders)?;
     let inspection = Inspection::of(opened, names.as_deref()).map_err(unusable)?;
     if args.json {
         return say_json(&inspection);
@@ -74,11 +74,11 @@ fn unusable(path: &Path, miss: &Miss) -> Error {
 fn surface_names(
     path: &Path,
     args: &InspectCommand,
-    site: &Site,
+    folders: &Folders,
 ) -> Result<Option<Vec<String>>, Error> {
     let scene = match &args.scene {
-        Some(scene) => Some(site.load(scene, args.outside)?),
-        None => last_user(path).and_then(|name| site.load(name.as_ref(), args.outside).ok()),
+        Some(scene) => Some(folders.load(scene, args.outside)?),
+        None => last_user(path).and_then(|name| folders.load(name.as_ref(), args.outside).ok()),
     };
     let names = |project: radiosity::Project| {
         let surfaces = project.scene.surfaces.into_iter();

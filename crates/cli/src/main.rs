@@ -2,7 +2,7 @@
 
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
-use radiosity_cli::{Command, Site, parse_command_line, run, with_examples};
+use radiosity_cli::{Command, Folders, parse_command_line, run, with_examples};
 use std::fs;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -47,7 +47,7 @@ fn main() -> ExitCode {
         Err(code) => return code,
     };
     let (what, written) = match task {
-        Task::Radiosity(command) => return run(&command, &Site::installed()),
+        Task::Radiosity(command) => return run(&command, &Folders::installed()),
         Task::Completions { shell } => ("standard output".into(), complete(shell)),
         Task::Man { folder } => {
             let made = fs::create_dir_all(&folder);

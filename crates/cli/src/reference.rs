@@ -1,9 +1,9 @@
 //! `reference`: the oracle's pictures and tables.
 
+use super::folders::Folders;
 use super::reference_args::ReferenceCommand;
 use super::reference_report::{Json, PictureReport};
 use super::run::{make_folder, with_threads, write};
-use super::site::Site;
 use super::terminal::{Terminal, say_json};
 use crate::error::Error;
 use crate::lines::{indented, labelled};
@@ -27,13 +27,13 @@ const FEWEST_PASSES: u32 = 16;
 /// What an interrupted run loses at most.
 const SAVE_INTERVAL: Duration = Duration::from_secs(10);
 
-pub(crate) fn run(args: &ReferenceCommand, site: &Site) -> Result<(), Error> {
+pub(crate) fn run(args: &ReferenceCommand, folders: &Folders) -> Result<(), Error> {
     let Project {
         scene, mut params, ..
-    } = site.load(&args.scene, args.outside)?;
+    } = folders.load(&args.scene, args.outside)?;
     args.image.apply(&mut params.image);
     params.check().map_err(radiosity::Error::from)?;
-    let folder = args.output.as_ref().unwrap_or(&site.output);
+    let folder = args.output.as_ref().unwrap_or(&folders.output);
     make_folder(folder)?;
     let terminal = Terminal::brief(args.json);
     with_threads(args.threads, || {

@@ -13,7 +13,7 @@ use radiosity::geometry::Face;
 use radiosity::openings;
 use radiosity::stages::{Dimming, Factors, Patches, Solved};
 use radiosity::words::{bytes, grouped};
-use radiosity::{Energy, How, Origin};
+use radiosity::{Energy, Origin, Provenance};
 use radiosity::{RowReport, RowSummary};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -202,9 +202,9 @@ impl<'a> Report<'a> {
 
     fn stage_line(&self, stage: &str, origin: &Origin) {
         let how = match &origin.how {
-            How::Cached => "cached".to_owned(),
-            How::Computed(reason) => format!("computed ({reason})"),
-            How::NotNeeded => "not needed".to_owned(),
+            Provenance::Cached => "cached".to_owned(),
+            Provenance::Computed(reason) => format!("computed ({reason})"),
+            Provenance::NotNeeded => "not needed".to_owned(),
         };
         let (seconds, size) = (format!("{:.2} s", origin.seconds), bytes(origin.bytes));
         let line = labelled(stage, &format!("{how:<36}{seconds:>9}{size:>9}"));

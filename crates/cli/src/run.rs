@@ -6,11 +6,11 @@ use super::check;
 use super::compare;
 use super::display;
 use super::estimate_args::ThreadArgs;
+use super::folders::Folders;
 use super::form_factors;
 use super::inspect;
 use super::reference;
 use super::signals::remove_unfinished_on_signals;
-use super::site::Site;
 use super::terminal::{Terminal, tell};
 use crate::error::Error;
 use crate::plot::convergence_plot;
@@ -26,7 +26,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 /// Runs a command and prints what it has to say; the exit code is 0, or that of the error.
-pub fn run(command: &Command, site: &Site) -> ExitCode {
+pub fn run(command: &Command, folders: &Folders) -> ExitCode {
     // A comparison does it when it has something to write: see there.
     if !matches!(command, Command::Compare(_)) {
         remove_unfinished_on_signals();
@@ -38,15 +38,15 @@ pub fn run(command: &Command, site: &Site) -> ExitCode {
         ));
     }
     let result = match command {
-        Command::Render(args) | Command::Display(args) => display::run(args, site),
-        Command::FormFactors(args) => form_factors::run(args, site),
-        Command::Solve(args) => solve(args, site, true),
-        Command::Relight(args) => solve(args, site, false),
-        Command::Reference(args) => reference::run(args, site),
-        Command::Compare(args) => compare::run(args, site),
-        Command::Check(args) => check::run(args, site),
-        Command::Cache(args) => cache_folder::run(args, site),
-        Command::Inspect(args) => inspect::run(args, site),
+        Command::Render(args) | Command::Display(args) => display::run(args, folders),
+        Command::FormFactors(args) => form_factors::run(args, folders),
+        Command::Solve(args) => solve(args, folders, true),
+        Command::Relight(args) => solve(args, folders, false),
+        Command::Reference(args) => reference::run(args, folders),
+        Command::Compare(args) => compare::run(args, folders),
+        Command::Check(args) => check::run(args, folders),
+        Command::Cache(args) => cache_folder::run(args, folders),
+        Command::Inspect(args) => inspect::run(args, folders),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -58,10 +58,10 @@ pub fn run(command: &Command, site: &Site) -> ExitCode {
 }
 
 /// `is_anew` says whether a cached solution will not do.
-fn solve(args: &SolveCommand, site: &Site, is_anew: bool) -> Result<(), Error> {
+fn solve(args: &SolveCommand, folders: &Folders, is_anew: bool) -> Result<(), Error> {
     let Project {
         scene, mut params, ..
-    } = args.scene.load(site)?;
+    } = args.scene.load(folders)?;
     args.estimate.factors.apply(&mut params.form_factors);
     args.solve.apply(&mut params.solver);
     params.check().map_err(radiosity::Error::from)?;
@@ -71,7 +71,7 @@ fn solve(args: &SolveCommand, site: &Site, is_anew: bool) -> Result<(), Error> {
     }
     let terminal = Terminal::new(args.estimate.output);
     with_threads(args.estimate.threads, || {
-        let store = args.estimate.cache.store(site);
+        let store = args.estimate.cache.store(folders);
         let context = Context::new(store.as_ref(), &terminal);
         let patches = subdivide(&scene, &params.discretization, context)?;
         let factors = estimate(&patches, &params.form_factors)?;

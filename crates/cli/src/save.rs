@@ -1,7 +1,7 @@
 //! Pictures into files.
 
 use super::choices::FormatArg;
-use super::print::Print;
+use super::display_image::DisplayImage;
 use super::run::write;
 use crate::error::Error;
 use radiosity::Params;
@@ -86,7 +86,7 @@ impl<'a> Folder<'a> {
 
     /// Writes a picture in all formats. The first format's file is called as the picture, others
     /// have the format appended.
-    pub(super) fn save(&mut self, name: &str, print: &Print<'_>) -> Result<(), Error> {
+    pub(super) fn save(&mut self, name: &str, print: &DisplayImage<'_>) -> Result<(), Error> {
         for (index, &format) in self.formats.iter().enumerate() {
             let (label, ending) = format.label_and_ending();
             let path = self.path.join(format!("{}-{name}.{ending}", self.scene));
@@ -117,7 +117,7 @@ impl<'a> Folder<'a> {
         Ok(())
     }
 
-    fn encoded(&self, name: &str, print: &Print<'_>, format: FormatArg) -> Vec<u8> {
+    fn encoded(&self, name: &str, print: &DisplayImage<'_>, format: FormatArg) -> Vec<u8> {
         let own = [("Picture", name.to_owned())];
         let metadata = [&self.metadata[..], &own, &print.palette.facts()].concat();
         let levels = |format| encode(print.screen(), format, &metadata);

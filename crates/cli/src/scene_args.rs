@@ -1,7 +1,7 @@
 //! Which scene, and how it is cut, on the command line.
 
+use super::folders::Folders;
 use super::parse::parse_counts;
-use super::site::Site;
 use crate::error::Error;
 use clap::Args;
 use radiosity::Project;
@@ -36,8 +36,8 @@ pub struct SceneArgs {
 
 impl SceneArgs {
     /// The scene, with its parameters as far as these flags change them.
-    pub(super) fn load(&self, site: &Site) -> Result<Project, Error> {
-        let mut project = site.load(&self.scene, self.outside)?;
+    pub(super) fn load(&self, folders: &Folders) -> Result<Project, Error> {
+        let mut project = folders.load(&self.scene, self.outside)?;
         self.apply(&mut project.params.discretization);
         Ok(project)
     }

@@ -1,11 +1,11 @@
 //! All pictures of a run: every look, from everywhere, by every shading.
 
+use super::display_image::{DisplayImage, Palette};
+use super::display_quantity::DisplayQuantity;
 use super::image_args::DisplayArgs;
-use super::live::Live;
-use super::look::Look;
-use super::print::{Palette, Print};
 use super::save::Folder;
-use super::view_args::Shot;
+use super::thumbnail::Thumbnail;
+use super::view_args::ViewFrame;
 use crate::error::Error;
 use radiosity::darkness;
 use radiosity::image::{Image, Rgb8Image, Transfer, contact_sheet, thumbnail_width};
@@ -20,9 +20,9 @@ pub(super) struct Series<'a> {
     /// Of pictures for screens.
     pub(super) params: &'a ImageParams,
     pub(super) factors: &'a Factors<'a>,
-    pub(super) looks: &'a [Look],
-    pub(super) shots: &'a [Shot],
-    pub(super) live: Live,
+    pub(super) looks: &'a [DisplayQuantity],
+    pub(super) shots: &'a [ViewFrame],
+    pub(super) live: Thumbnail,
     pub(super) folder: Folder<'a>,
     pub(super) sheet: Sheet,
 }
@@ -65,7 +65,7 @@ impl Series<'_> {
                 let outlines = self.outlines(look, shot);
                 for ((image, linear), &shading) in images.iter().zip(linear).zip(&shadings) {
                     let palette = self.palette(look, image, fixed.as_ref());
-                    let print = Print {
+                    let print = DisplayImage {
                         palette: &palette,
                         image,
                         linear,
@@ -91,7 +91,7 @@ impl Series<'_> {
         Ok(())
     }
 
-    fn say_why_black(&self, shot: &Shot) {
+    fn say_why_black(&self, shot: &ViewFrame) {
         let of_view = shot.name.as_ref();
         let of_view = of_view.map_or(String::new(), |name| format!(" of view `{name}`"));
         let patches = self.factors.patches();
@@ -103,9 +103,9 @@ impl Series<'_> {
     /// Shows a small picture in the terminal.
     fn glance(
         &mut self,
-        look: &Look,
+        look: &DisplayQuantity,
         renderer: &Renderer<'_>,
-        shot: &Shot,
+        shot: &ViewFrame,
         fixed: Option<&Palette>,
     ) {
         if let Some(small) = self.live.size(self.size()) {
@@ -125,7 +125,7 @@ impl Series<'_> {
         }
     }
 
-    fn keep(&mut self, name: String, print: &Print<'_>) -> Result<(), Error> {
+    fn keep(&mut self, name: String, print: &DisplayImage<'_>) -> Result<(), Error> {
         self.folder.save(&name, print)?;
         if self.args.views.sheet {
             let thumbnail = print.screen().thumbnail(self.thumbnail_width());
@@ -143,7 +143,7 @@ impl Series<'_> {
         thumbnail_width(of_shot * self.shots.len())
     }
 
-    fn outlines(&self, look: &Look, shot: &Shot) -> Option<Outlines> {
+    fn outlines(&self, look: &DisplayQuantity, shot: &ViewFrame) -> Option<Outlines> {
         let show = &self.args.show;
         let has_lines = show.patch_lines || show.isolines && look.is_number();
         let seen = (&shot.camera, self.params.backs);
@@ -151,7 +151,7 @@ impl Series<'_> {
     }
 
     /// Numbers are never clamped, nor are pictures of which no screen shows any.
-    fn params_of(&self, look: &Look) -> ImageParams {
+    fn params_of(&self, look: &DisplayQuantity) -> ImageParams {
         let is_for_screens = self.folder.wants_levels() || self.args.views.sheet;
         match is_for_screens && !look.is_number() {
             true => *self.params,
@@ -159,7 +159,7 @@ impl Series<'_> {
         }
     }
 
-    fn palette(&self, look: &Look, image: &Image, fixed: Option<&Palette>) -> Palette {
+    fn palette(&self, look: &DisplayQuantity, image: &Image, fixed: Option<&Palette>) -> Palette {
         fixed
             .cloned()
             .unwrap_or_else(|| look.palette(image, &self.args.show, self.params))
@@ -171,7 +171,11 @@ impl Series<'_> {
 }
 
 /// Refuses pictures that would have one name.
-pub(super) fn check_names(args: &DisplayArgs, looks: &[Look], shots: &[Shot]) -> Result<(), Error> {
+pub(super) fn check_names(
+    args: &DisplayArgs,
+    looks: &[DisplayQuantity],
+    shots: &[ViewFrame],
+) -> Result<(), Error> {
     let mut names = BTreeSet::new();
     for look in looks {
         for shading in look.shadings(&args.shadings()) {
@@ -190,7 +194,7 @@ pub(super) fn check_names(args: &DisplayArgs, looks: &[Look], shots: &[Shot]) ->
 }
 
 /// View, what is shown, and shading, as far as they are not the usual ones.
-fn name_of(look: &Look, shot: &Shot, shading: Shading) -> String {
+fn name_of(look: &DisplayQuantity, shot: &ViewFrame, shading: Shading) -> String {
     let shading = match shading {
         Shading::Constant => "constant",
         Shading::Smooth => "smooth",

@@ -1,5 +1,5 @@
 //! Progress bars, notes and lines on the terminal. All that the command prints goes through here,
-//! with what is not safe to print shown as codes; only [`live`](super::live) draws by itself.
+//! with what is not safe to print shown as codes; only [`thumbnail`](super::thumbnail) draws by itself.
 
 use super::printable;
 use crate::error::Error;

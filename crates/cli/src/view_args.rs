@@ -38,19 +38,19 @@ pub struct ViewArgs {
 
 /// A camera, and what its pictures are called; those of the scene's first one are not.
 #[derive(Clone)]
-pub(super) struct Shot {
+pub(super) struct ViewFrame {
     pub(super) name: Option<String>,
     pub(super) camera: Camera,
 }
 
 impl ViewArgs {
     /// All cameras, in order.
-    pub(super) fn shots(&self, scene: &Scene, mesh: &Mesh) -> Result<Vec<Shot>, Error> {
+    pub(super) fn shots(&self, scene: &Scene, mesh: &Mesh) -> Result<Vec<ViewFrame>, Error> {
         let wanted = self.wanted(scene)?;
         if let Some(count) = self.turntable {
             let bounds = mesh.bounds();
             let center = 0.5 * (bounds.min + bounds.max);
-            let turn = |shot: &Shot| {
+            let turn = |shot: &ViewFrame| {
                 let view = shot.name.as_ref().map(|name| format!("{name}-"));
                 let name = format!("{}turntable", view.unwrap_or_default());
                 frames(name, shot.camera.turntable(center, count))
@@ -77,16 +77,16 @@ impl ViewArgs {
     }
 
     /// The scene's cameras that are asked for; not none.
-    fn wanted(&self, scene: &Scene) -> Result<Vec<Shot>, Error> {
-        let first = scene.camera.iter().map(|camera| Shot {
+    fn wanted(&self, scene: &Scene) -> Result<Vec<ViewFrame>, Error> {
+        let first = scene.camera.iter().map(|camera| ViewFrame {
             name: None,
             camera: *camera,
         });
-        let others = scene.views.iter().map(|view| Shot {
+        let others = scene.views.iter().map(|view| ViewFrame {
             name: Some(view.name.clone()),
             camera: view.camera,
         });
-        let mut all: Vec<Shot> = first.chain(others).collect();
+        let mut all: Vec<ViewFrame> = first.chain(others).collect();
         if all.is_empty() {
             return Err(radiosity::Error::no_camera(scene).into());
         }
@@ -96,7 +96,7 @@ impl ViewArgs {
             }
             return Ok(all);
         }
-        let called = |shot: &Shot| shot.name.clone().unwrap_or(FIRST_VIEW.to_owned());
+        let called = |shot: &ViewFrame| shot.name.clone().unwrap_or(FIRST_VIEW.to_owned());
         let known: Vec<String> = all.iter().map(called).collect();
         let mut wanted = Vec::new();
         for name in self.views.iter().filter(|name| *name != ALL_VIEWS) {
@@ -119,8 +119,8 @@ impl ViewArgs {
 }
 
 /// Numbered pictures.
-fn frames(name: String, cameras: Vec<Camera>) -> impl Iterator<Item = Shot> {
-    let frame = move |(camera, k): (Camera, u32)| Shot {
+fn frames(name: String, cameras: Vec<Camera>) -> impl Iterator<Item = ViewFrame> {
+    let frame = move |(camera, k): (Camera, u32)| ViewFrame {
         name: Some(format!("{name}-{k:04}")),
         camera,
     };

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 /// Whether a stage may take its result from the cache.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Sources {
+pub(crate) enum CachePolicy {
     /// Take what is cached, compute what is not.
     Cached,
     /// Compute anew, and cache that.
@@ -17,7 +17,7 @@ pub(crate) enum Sources {
 
 /// How an artifact was come by.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum How {
+pub enum Provenance {
     /// Taken from the cache.
     Cached,
     /// Computed, for this reason.
@@ -30,7 +30,7 @@ pub enum How {
 #[derive(Clone, Debug)]
 pub struct Origin {
     /// Cached or computed.
-    pub how: How,
+    pub how: Provenance,
     /// Its file, if it is cached now.
     pub file: Option<PathBuf>,
     /// The size of its data.
@@ -50,10 +50,10 @@ pub(crate) struct Recipe<R, M> {
 
 /// Takes an artifact from the cache, or computes and caches it, one process at a time. A cache that
 /// cannot be used, or not any more, costs a note and nothing else.
-pub(crate) fn obtain<T>(
+pub(crate) fn get_or_compute<T>(
     context: Context<'_>,
     id: &Id<'_>,
-    sources: Sources,
+    sources: CachePolicy,
     recipe: Recipe<
         impl Fn(&Store) -> Result<T, Miss>,
         impl FnOnce(Option<&Store>) -> Result<(T, bool), Error>,
@@ -63,16 +63,16 @@ pub(crate) fn obtain<T>(
     let Some(store) = context.cache else {
         let reason = "caching is off".to_owned();
         let (artifact, _) = (recipe.make)(None)?;
-        return Ok((artifact, Origin::new(How::Computed(reason), None)));
+        return Ok((artifact, Origin::new(Provenance::Computed(reason), None)));
     };
     let path = store.path(id);
     let look = || match sources {
-        Sources::Cached => (recipe.read)(store).map_err(|miss| miss.to_string()),
-        Sources::Computed => Err("asked for".to_owned()),
+        CachePolicy::Cached => (recipe.read)(store).map_err(|miss| miss.to_string()),
+        CachePolicy::Computed => Err("asked for".to_owned()),
     };
     if let Ok(artifact) = look() {
         store.tidy(id);
-        return Ok((artifact, Origin::new(How::Cached, Some(path))));
+        return Ok((artifact, Origin::new(Provenance::Cached, Some(path))));
     }
     let waiting = || {
         let stage = id.stage;
@@ -86,14 +86,14 @@ pub(crate) fn obtain<T>(
         Ok(artifact) => {
             drop(lock);
             store.tidy(id);
-            return Ok((artifact, Origin::new(How::Cached, Some(path))));
+            return Ok((artifact, Origin::new(Provenance::Cached, Some(path))));
         }
         Err(reason) => reason,
     };
     let (artifact, is_cached) = (recipe.make)(lock.as_ref().map(|_| store))?;
     store.check()?;
     let file = is_cached.then_some(path);
-    Ok((artifact, Origin::new(How::Computed(reason), file)))
+    Ok((artifact, Origin::new(Provenance::Computed(reason), file)))
 }
 
 /// What was asked of the cache, or a note that it cannot be used.
@@ -111,19 +111,19 @@ pub(crate) fn usable<T>(
 impl Origin {
     /// Whether it was taken from the cache.
     pub fn is_cached(&self) -> bool {
-        self.how == How::Cached
+        self.how == Provenance::Cached
     }
 
     /// Why it was not taken from the cache.
     pub fn reason(&self) -> Option<&str> {
         match &self.how {
-            How::Cached => None,
-            How::Computed(reason) => Some(reason),
-            How::NotNeeded => Some("not needed: the solution is cached"),
+            Provenance::Cached => None,
+            Provenance::Computed(reason) => Some(reason),
+            Provenance::NotNeeded => Some("not needed: the solution is cached"),
         }
     }
 
-    fn new(how: How, file: Option<PathBuf>) -> Origin {
+    fn new(how: Provenance, file: Option<PathBuf>) -> Origin {
         Origin {
             how,
             file,

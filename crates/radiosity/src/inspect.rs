@@ -1,8 +1,8 @@
 //! What a file of the cache says of itself.
 
-use crate::facts::{CLOSURE, FORM_FACTORS, FactorFacts, SOLUTION, SolutionFacts};
+use crate::metadata::{CLOSURE, FORM_FACTORS, FactorFacts, SOLUTION, SolutionFacts};
 use crate::row_report::RowReport;
-use crate::rows::RowSummary;
+use crate::row_statistics::RowSummary;
 use radiosity_cache::{Miss, Opened};
 use radiosity_form_factors::{Estimator, RowFacts};
 use serde::{Serialize, Serializer};

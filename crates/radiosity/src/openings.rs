@@ -6,7 +6,7 @@ mod gaps;
 mod turned;
 
 use crate::face_rays::{cosine_rays, spread};
-use crate::rows::RowSummary;
+use crate::row_statistics::RowSummary;
 use crate::words::named;
 use edges::Edges;
 use radiosity_geometry::{FaceId, Mesh, Occluders};

@@ -1,6 +1,6 @@
 //! What is known of the rows of form factors, for scripts.
 
-use crate::rows::RowSummary;
+use crate::row_statistics::RowSummary;
 use radiosity_form_factors::{Classes, ClosureFacts};
 use serde::Serialize;
 

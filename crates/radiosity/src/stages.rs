@@ -36,7 +36,7 @@ pub use factors::{Factors, FormFactorsMade, estimate};
 pub use irradiance::mean_irradiance;
 pub use light::PatchLight;
 pub use patches::{Patches, subdivide};
-pub use pictures::{Quantity, Shown, render, render_by, save_png, show};
+pub use pictures::{DisplayField, Quantity, render, render_by, save_png, show};
 pub use solution::{Solved, solve, solve_anew};
 
 #[cfg(test)]

@@ -2,10 +2,10 @@
 
 use super::lines;
 use radiosity::cache::{Id, Key, Miss, Store, open};
-use radiosity::facts::{FORM_FACTORS, FactorFacts, SOLUTION, SolutionFacts};
 use radiosity::form_factors::{Classes, Estimator, FormFactors, RowFacts};
 use radiosity::inspect::Inspection;
 use radiosity::matrix::{DenseExchange, SymmetricMatrix};
+use radiosity::metadata::{FORM_FACTORS, FactorFacts, SOLUTION, SolutionFacts};
 use radiosity::solver::{Convergence, Method, Power};
 use radiosity::{Energy, RowSummary};
 use serde::Serialize;

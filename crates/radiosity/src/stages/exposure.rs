@@ -2,7 +2,7 @@
 
 use super::light::PatchLight;
 use super::patches::Patches;
-use super::pictures::Shown;
+use super::pictures::DisplayField;
 use radiosity_geometry::Camera;
 use radiosity_image::{Exposure, Image};
 use radiosity_params::NumberOrWord;
@@ -36,9 +36,10 @@ pub fn expose(
     let measured = || {
         let step = cameras.len().div_ceil(MOST_CAMERAS).max(1);
         let cameras: Vec<&Camera> = cameras.iter().step_by(step).collect();
-        let of = |shown: &Shown| Exposure::of(&seen(shown, patches, &cameras, params, shading));
-        let reflected = of(&Shown::reflected(patches, light));
-        reflected.or_else(|| of(&Shown::light(patches, light)))
+        let of =
+            |shown: &DisplayField| Exposure::of(&seen(shown, patches, &cameras, params, shading));
+        let reflected = of(&DisplayField::reflected(patches, light));
+        reflected.or_else(|| of(&DisplayField::light(patches, light)))
     };
     // Where all is black, any factor will do.
     let exposure = params.exposure.number().or_else(measured).unwrap_or(1.0);
@@ -47,7 +48,7 @@ pub fn expose(
 
 /// Small images of what cameras see.
 fn seen(
-    shown: &Shown,
+    shown: &DisplayField,
     patches: &Patches<'_>,
     cameras: &[&Camera],
     params: &ImageParams,

@@ -1,16 +1,16 @@
 //! Stage 2: form factors, as they are estimated or closed.
 
 use super::patches::Patches;
-use crate::artifact::{How, Origin, Recipe, Sources, obtain};
-use crate::closed::closed;
+use crate::artifact::{CachePolicy, Origin, Provenance, Recipe, get_or_compute};
+use crate::closure_file::closed;
 use crate::covers;
 use crate::error::Error;
-use crate::facts::{self, CLOSURE, FORM_FACTORS, FactorFacts};
-use crate::job::Job;
-use crate::prediction::predicted_seconds;
+use crate::estimate_to_file::Job;
+use crate::forecast::predicted_seconds;
+use crate::metadata::{self, CLOSURE, FORM_FACTORS, FactorFacts};
 use crate::remedy::Remedy;
 use crate::row_columns::is_finite;
-use crate::rows::RowSummary;
+use crate::row_statistics::RowSummary;
 use radiosity_cache::{Id, Key, Miss, Store};
 use radiosity_form_factors::{self as form_factors, Estimation, FormFactors, Mode, Params};
 use radiosity_matrix::{DenseExchange, SymmetricMatrix};
@@ -48,7 +48,7 @@ pub fn estimate<'a>(patches: &'a Patches<'a>, params: &Params) -> Result<Factors
     for note in covers::notes(patches.scene, &patches.mesh, params.mode) {
         patches.context.observer.note(&note);
     }
-    let inputs = (facts::FACTORS_VERSION, &patches.mesh, params.estimator());
+    let inputs = (metadata::FACTORS_VERSION, &patches.mesh, params.estimator());
     let estimate = Key::of(FORM_FACTORS, form_factors::VERSION, &inputs);
     Ok(Factors {
         key: if params.closure {
@@ -68,13 +68,13 @@ impl<'a> Factors<'a> {
     ///
     /// Whoever holds them has them made or read only once.
     pub fn made(&self) -> Result<Arc<FormFactorsMade>, Error> {
-        self.made_from(Sources::Cached)
+        self.made_from(CachePolicy::Cached)
     }
 
     /// The form factors, estimated even if they are cached.
     pub fn made_anew(&self) -> Result<Arc<FormFactorsMade>, Error> {
         *self.held() = Weak::new();
-        self.made_from(Sources::Computed)
+        self.made_from(CachePolicy::Computed)
     }
 
     fn held(&self) -> impl DerefMut<Target = Weak<FormFactorsMade>> {
@@ -111,7 +111,7 @@ impl<'a> Factors<'a> {
         predicted_seconds(job.needs().pairs, &estimation, &job).unwrap_or(0.0)
     }
 
-    fn made_from(&self, sources: Sources) -> Result<Arc<FormFactorsMade>, Error> {
+    fn made_from(&self, sources: CachePolicy) -> Result<Arc<FormFactorsMade>, Error> {
         let mut held = self.held();
         if let Some(made) = held.upgrade() {
             return Ok(made);
@@ -132,7 +132,7 @@ impl<'a> Factors<'a> {
     }
 
     /// The form factors as they are estimated.
-    fn estimated(&self, sources: Sources) -> Result<FormFactorsMade, Error> {
+    fn estimated(&self, sources: CachePolicy) -> Result<FormFactorsMade, Error> {
         let id = self.patches.id(FORM_FACTORS, self.estimate);
         self.obtained(&id, sources, |store| match store {
             Some(store) => self.job().run_journaled(store, &id, sources),
@@ -144,7 +144,7 @@ impl<'a> Factors<'a> {
     fn obtained(
         &self,
         id: &Id<'_>,
-        sources: Sources,
+        sources: CachePolicy,
         make: impl FnOnce(Option<&Store>) -> Result<(FormFactors, bool), Error>,
     ) -> Result<FormFactorsMade, Error> {
         let start = Instant::now();
@@ -155,7 +155,7 @@ impl<'a> Factors<'a> {
             },
             make,
         };
-        let (form_factors, mut origin) = obtain(self.patches.context, id, sources, recipe)?;
+        let (form_factors, mut origin) = get_or_compute(self.patches.context, id, sources, recipe)?;
         self.check_finite(&form_factors)?;
         origin.bytes = 4 * form_factors.exchange.matrix().values().len() as u64;
         origin.seconds = start.elapsed().as_secs_f64();
@@ -214,9 +214,9 @@ impl<'a> Factors<'a> {
         }
         Origin {
             how: if file.is_some() {
-                How::Cached
+                Provenance::Cached
             } else {
-                How::NotNeeded
+                Provenance::NotNeeded
             },
             file,
             bytes: 4 * radiosity_matrix::packed_len(self.patches.mesh.patches.len()) as u64,

@@ -45,7 +45,7 @@ impl Quantity {
 
 /// A quantity on all patches, and the light that makes it; see [`Fields`].
 #[derive(Clone, Debug)]
-pub struct Shown {
+pub struct DisplayField {
     sources: Vec<[f32; 3]>,
     reflectance: Vec<[f32; 3]>,
     indirect: Vec<[f32; 3]>,
@@ -72,7 +72,7 @@ pub fn render(
     shadings: &[Shading],
 ) -> Result<Vec<Image>, Error> {
     params.check()?;
-    let shown = Shown::light(patches, light);
+    let shown = DisplayField::light(patches, light);
     let renderer = shown.renderer(&patches.mesh, params, shadings);
     render_by(&renderer, camera, params, patches.context)
 }
@@ -86,8 +86,12 @@ pub fn save_png(path: &Path, image: &Image, params: &ImageParams) -> io::Result<
 
 /// A quantity on all patches. Irradiance, errors and factors make the form factors, if nobody holds
 /// them ([`Factors::made`]).
-pub fn show(factors: &Factors<'_>, light: &PatchLight, quantity: Quantity) -> Result<Shown, Error> {
-    let all = Shown::light(factors.patches, light);
+pub fn show(
+    factors: &Factors<'_>,
+    light: &PatchLight,
+    quantity: Quantity,
+) -> Result<DisplayField, Error> {
+    let all = DisplayField::light(factors.patches, light);
     let patches = all.value.len();
     let nothing = || vec![[0.0; 3]; patches];
     let made = match quantity.needs_factors() {
@@ -97,19 +101,19 @@ pub fn show(factors: &Factors<'_>, light: &PatchLight, quantity: Quantity) -> Re
     let made = || &made.as_ref().expect("the quantity needs them").form_factors;
     Ok(match quantity {
         Quantity::Radiosity => all,
-        Quantity::Direct => Shown {
+        Quantity::Direct => DisplayField {
             value: difference(&all.value, &all.indirect),
             gathered_gain: nothing(),
             ..all
         },
-        Quantity::Indirect => Shown {
+        Quantity::Indirect => DisplayField {
             value: all.indirect.clone(),
             emission: nothing(),
             direct: nothing(),
             direct_gain: nothing(),
             ..all
         },
-        Quantity::Irradiance => Shown {
+        Quantity::Irradiance => DisplayField {
             value: irradiance(made(), &light.radiosity),
             direct: irradiance(made(), &all.sources),
             emission: nothing(),
@@ -149,14 +153,14 @@ pub fn render_by(
     Ok(pictures)
 }
 
-impl Shown {
+impl DisplayField {
     /// What leaves patches.
-    pub(super) fn light(patches: &Patches<'_>, light: &PatchLight) -> Shown {
+    pub(super) fn light(patches: &Patches<'_>, light: &PatchLight) -> DisplayField {
         let emission = light.emission.clone();
         let to_f32 = |rgb: &[f64; 3]| rgb.map(|channel| channel as f32);
         let reflectance: Vec<[f32; 3]> = patches.reflectance.iter().map(to_f32).collect();
         let reflected = difference(&light.radiosity, &emission);
-        Shown {
+        DisplayField {
             sources: emission.clone(),
             indirect: difference(&reflected, &light.direct),
             visible: light.visible.clone(),
@@ -170,11 +174,11 @@ impl Shown {
     }
 
     /// The same without patches that emit.
-    pub(super) fn reflected(patches: &Patches<'_>, light: &PatchLight) -> Shown {
-        let mut shown = Shown::light(patches, light);
+    pub(super) fn reflected(patches: &Patches<'_>, light: &PatchLight) -> DisplayField {
+        let mut shown = DisplayField::light(patches, light);
         for (patch, emission) in light.emission.iter().enumerate() {
             if *emission != [0.0; 3] {
-                let Shown {
+                let DisplayField {
                     value,
                     emission,
                     direct,
@@ -215,9 +219,9 @@ impl Shown {
 }
 
 /// Numbers that are no light.
-fn table(values: Vec<f64>) -> Shown {
+fn table(values: Vec<f64>) -> DisplayField {
     let nothing = vec![[0.0; 3]; values.len()];
-    Shown {
+    DisplayField {
         sources: nothing.clone(),
         reflectance: nothing.clone(),
         indirect: nothing.clone(),

@@ -1,12 +1,12 @@
 //! Stage 3: the radiosities that each light makes, and their sum.
 
 use super::factors::Factors;
-use crate::artifact::{Origin, Recipe, Sources, obtain, usable};
+use crate::artifact::{CachePolicy, Origin, Recipe, get_or_compute, usable};
 use crate::energy::Energy;
 use crate::error::Error;
-use crate::facts::{self, SOLUTION, SolutionFacts};
+use crate::metadata::{self, SOLUTION, SolutionFacts};
 use crate::observer::Stage;
-use crate::rows::RowSummary;
+use crate::row_statistics::RowSummary;
 use radiosity_cache::{Id, Key, Miss, Store};
 use radiosity_params::Parameters;
 use radiosity_solver::{self as solver, Params, Solution, Solver, System};
@@ -36,18 +36,18 @@ pub struct Solved<'a> {
 /// Solves for the radiosities, or takes them from the cache: then form factors are not even looked
 /// at.
 pub fn solve<'a>(factors: &'a Factors<'a>, params: &Params) -> Result<Solved<'a>, Error> {
-    solve_from(factors, params, Sources::Cached)
+    solve_from(factors, params, CachePolicy::Cached)
 }
 
 /// [`solve`], even if the solution is cached.
 pub fn solve_anew<'a>(factors: &'a Factors<'a>, params: &Params) -> Result<Solved<'a>, Error> {
-    solve_from(factors, params, Sources::Computed)
+    solve_from(factors, params, CachePolicy::Computed)
 }
 
 fn solve_from<'a>(
     factors: &'a Factors<'a>,
     params: &Params,
-    sources: Sources,
+    sources: CachePolicy,
 ) -> Result<Solved<'a>, Error> {
     params.check()?;
     let context = factors.patches.context;
@@ -78,7 +78,7 @@ fn solve_from<'a>(
             Ok(((solution, facts), is_cached))
         },
     };
-    let ((solution, facts), mut origin) = obtain(context, &id, sources, recipe)?;
+    let ((solution, facts), mut origin) = get_or_compute(context, &id, sources, recipe)?;
     origin.bytes = 24 * (solution.lights.len() * factors.patches.mesh.patches.len()) as u64;
     origin.seconds = start.elapsed().as_secs_f64();
     let form_factors = made_from.unwrap_or_else(|| factors.untouched());
@@ -180,7 +180,7 @@ impl<'a> Factors<'a> {
 
     fn solution_id(&self, params: &Params) -> Id<'a> {
         let inputs = (
-            facts::SOLUTION_VERSION,
+            metadata::SOLUTION_VERSION,
             self.key.bytes(),
             &self.patches.lights,
             &self.patches.reflectance,

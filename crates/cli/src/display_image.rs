@@ -1,6 +1,6 @@
 //! How an image becomes what a screen or a file holds.
 
-use super::look::Number;
+use super::display_quantity::Number;
 use radiosity::image::{ColorScale, Image, Rgb8Image, Rgb16Image, ToneMap, Transfer, with_legend};
 use radiosity::params::NumberOrWord;
 use radiosity::renderer::Outlines;
@@ -14,7 +14,7 @@ pub(super) enum Palette {
 }
 
 /// An image and all that it takes to show it.
-pub(super) struct Print<'a> {
+pub(super) struct DisplayImage<'a> {
     pub(super) palette: &'a Palette,
     /// The quantity over pi, clamped for screens.
     pub(super) image: &'a Image,
@@ -72,7 +72,7 @@ impl Palette {
     }
 }
 
-impl Print<'_> {
+impl DisplayImage<'_> {
     /// What a screen shows.
     pub(super) fn screen(&self) -> &Rgb8Image {
         self.shown.get_or_init(|| self.show())

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 /// The folders that a command uses unless told otherwise.
 #[derive(Clone, Debug)]
-pub struct Site {
+pub struct Folders {
     /// Scenes that can be called by name, beside those in the program.
     pub scenes: PathBuf,
     /// Cached artifacts.
@@ -28,10 +28,10 @@ fn is_of_scene(ending: &OsStr) -> bool {
     ENDINGS.iter().any(|known| ending == *known)
 }
 
-impl Site {
+impl Folders {
     /// Everything in a checkout of the project.
-    pub fn checkout(root: &Path) -> Site {
-        Site {
+    pub fn checkout(root: &Path) -> Folders {
+        Folders {
             scenes: root.join("scenes"),
             cache: root.join("cache"),
             output: root.join("out"),
@@ -39,12 +39,12 @@ impl Site {
     }
 
     /// Scenes and pictures in the working folder, artifacts in the platform's cache folder.
-    pub fn installed() -> Site {
+    pub fn installed() -> Folders {
         let cache = match choose_base_strategy() {
             Ok(platform) => platform.cache_dir().join("radiosity"),
             Err(_) => PathBuf::from("cache"),
         };
-        Site {
+        Folders {
             scenes: PathBuf::from("scenes"),
             cache,
             output: PathBuf::from("out"),

@@ -1,12 +1,12 @@
 //! Stage 2 on a real machine: form factors are kept as they are made.
 
-use crate::artifact::{Sources, usable};
-use crate::batches::{Batches, Finished, estimate_in_memory};
+use crate::artifact::{CachePolicy, usable};
 use crate::error::Error;
-use crate::facts::FactorFacts;
+use crate::forecast::prediction;
+use crate::metadata::FactorFacts;
 use crate::observer::{Observer, Stage};
-use crate::prediction::prediction;
 use crate::resources::Needs;
+use crate::row_batches::{Batches, Finished, estimate_in_memory};
 use radiosity_cache::{CacheError, Draft, Id, Store, Unusable};
 use radiosity_form_factors::{Estimation, Estimator, FormFactors};
 use radiosity_geometry::Mesh;
@@ -43,15 +43,15 @@ impl Job<'_> {
         &self,
         store: &Store,
         id: &Id<'_>,
-        sources: Sources,
+        sources: CachePolicy,
     ) -> Result<(FormFactors, bool), Error> {
         let needs = self.needs();
         needs.check_memory()?;
         let estimation = Estimation::new(self.mesh, self.estimator);
         let blank = FactorFacts::blank(self.mesh, self.estimator, estimation.tells_errors());
         let resumed = match sources {
-            Sources::Cached => self.resume(store, id, &blank, &estimation),
-            Sources::Computed => None,
+            CachePolicy::Cached => self.resume(store, id, &blank, &estimation),
+            CachePolicy::Computed => None,
         };
         let begun = match resumed {
             Some((draft, finished)) => {
@@ -160,11 +160,11 @@ impl Job<'_> {
 }
 
 /// Says that the rest is made in memory, and what the next run has of it.
-pub(crate) fn not_kept(error: &CacheError, id: &Id<'_>, kept: f64, sources: Sources) -> String {
+pub(crate) fn not_kept(error: &CacheError, id: &Id<'_>, kept: f64, sources: CachePolicy) -> String {
     let stage = id.stage;
     let lost = format!("{error}: the {stage} are finished in memory and not kept");
     match sources {
-        Sources::Cached if kept > 0.0 => format!(
+        CachePolicy::Cached if kept > 0.0 => format!(
             "{lost}, but for {:.0} % of them, where the next run goes on",
             100.0 * kept
         ),

@@ -1,8 +1,8 @@
 //! What a picture shows: a quantity, and what its numbers mean.
 
 use super::choices::ShowArg;
+use super::display_image::Palette;
 use super::parse::PatchName;
-use super::print::Palette;
 use super::show_args::ShowArgs;
 use crate::error::Error;
 use radiosity::Params;
@@ -16,7 +16,7 @@ use radiosity::stages::Quantity;
 use std::f64::consts::PI;
 
 /// A quantity to show.
-pub(super) struct Look {
+pub(super) struct DisplayQuantity {
     pub(super) quantity: Quantity,
     /// Part of the names of its pictures; all light has none.
     pub(super) name: Option<&'static str>,
@@ -43,7 +43,7 @@ impl ShowArgs {
         scene: &Scene,
         params: &Params,
         mesh: &Mesh,
-    ) -> Result<Vec<Look>, Error> {
+    ) -> Result<Vec<DisplayQuantity>, Error> {
         let mut shows = self.show.clone();
         if shows.is_empty() && self.factors_of.is_none() {
             shows.push(ShowArg::Light);
@@ -56,17 +56,19 @@ impl ShowArgs {
         }
         let is_new = |k: &usize| !shows[..*k].contains(&shows[*k]);
         let new = (0..shows.len()).filter(is_new);
-        let mut looks: Vec<Look> = new.map(|k| Look::of(shows[k], &params.image)).collect();
+        let mut looks: Vec<DisplayQuantity> = new
+            .map(|k| DisplayQuantity::of(shows[k], &params.image))
+            .collect();
         if let Some(name) = &self.factors_of {
-            looks.push(Look::of_factors(name, scene, mesh)?);
+            looks.push(DisplayQuantity::of_factors(name, scene, mesh)?);
         }
         Ok(looks)
     }
 }
 
-impl Look {
-    fn of(show: ShowArg, params: &ImageParams) -> Look {
-        let light = |quantity, name| Look {
+impl DisplayQuantity {
+    fn of(show: ShowArg, params: &ImageParams) -> DisplayQuantity {
+        let light = |quantity, name| DisplayQuantity {
             quantity,
             name,
             number: None,
@@ -79,22 +81,24 @@ impl Look {
             ShowArg::Direct => light(Quantity::Direct, Some("direct")),
             ShowArg::Indirect => light(Quantity::Indirect, Some("indirect")),
             ShowArg::Radiosity => {
-                Look::of_number(Quantity::Radiosity, "radiosity", watts(GREY, true))
+                DisplayQuantity::of_number(Quantity::Radiosity, "radiosity", watts(GREY, true))
             }
             ShowArg::Irradiance => {
-                Look::of_number(Quantity::Irradiance, "irradiance", watts(GREY, true))
+                DisplayQuantity::of_number(Quantity::Irradiance, "irradiance", watts(GREY, true))
             }
             ShowArg::Illuminance => {
                 let unit = ("lx".to_owned(), lux, false);
-                Look::of_number(Quantity::Irradiance, "illuminance", unit)
+                DisplayQuantity::of_number(Quantity::Irradiance, "illuminance", unit)
             }
-            ShowArg::Error => {
-                Look::of_number(Quantity::Error, "error", (ratio.to_owned(), GREY, false))
-            }
+            ShowArg::Error => DisplayQuantity::of_number(
+                Quantity::Error,
+                "error",
+                (ratio.to_owned(), GREY, false),
+            ),
         }
     }
 
-    fn of_factors(name: &PatchName, scene: &Scene, mesh: &Mesh) -> Result<Look, Error> {
+    fn of_factors(name: &PatchName, scene: &Scene, mesh: &Mesh) -> Result<DisplayQuantity, Error> {
         let PatchName { surface, cell } = name;
         let [a, b] = cell;
         let patch = patch_at(scene, mesh, surface, *cell).ok_or_else(|| {
@@ -105,15 +109,15 @@ impl Look {
         })?;
         let unit = (format!("of {surface} {a},{b}"), GREY, false);
         let quantity = Quantity::FactorsFrom(patch);
-        Ok(Look::of_number(quantity, "form-factors", unit))
+        Ok(DisplayQuantity::of_number(quantity, "form-factors", unit))
     }
 
     fn of_number(
         quantity: Quantity,
         title: &'static str,
         (unit, weights, has_colors): (String, [f64; 3], bool),
-    ) -> Look {
-        Look {
+    ) -> DisplayQuantity {
+        DisplayQuantity {
             quantity,
             name: Some(title),
             number: Some(Number {

@@ -3,7 +3,7 @@
 use crate::energy::Energy;
 use crate::export::faces_in_input_order;
 use crate::row_columns::is_finite;
-use crate::rows::RowSummary;
+use crate::row_statistics::RowSummary;
 use radiosity_form_factors::{Classes, ClosureFacts, Estimator, FormFactors, RowFacts};
 use radiosity_geometry::{Face, Mesh};
 use radiosity_matrix::{Exchange, packed_len};

@@ -1,9 +1,9 @@
 //! Form factors whose rows sum to 1: a variant of those that were estimated, and a file of its own.
 
-use crate::artifact::{Sources, usable};
+use crate::artifact::{CachePolicy, usable};
 use crate::error::Error;
-use crate::facts::FactorFacts;
-use crate::job::{Job, not_kept};
+use crate::estimate_to_file::{Job, not_kept};
+use crate::metadata::FactorFacts;
 use radiosity_cache::{Batch, Id, Store};
 use radiosity_form_factors::{Closure, ClosureFacts, FormFactors};
 use radiosity_matrix::{SymmetricMatrix, packed_len};
@@ -32,7 +32,7 @@ pub(crate) fn closed(
     };
     draft.extend(batches(&closure, raw), &|error, _| {
         job.observer
-            .note(&not_kept(error, id, 0.0, Sources::Computed));
+            .note(&not_kept(error, id, 0.0, CachePolicy::Computed));
     })?;
     let matrix = SymmetricMatrix::new(raw.areas.len(), draft.values()?);
     let made = closure.complete(raw, matrix.expect("all rows are made"));

@@ -1,6 +1,6 @@
 //! What a run will take, said before it begins.
 
-use crate::job::Job;
+use crate::estimate_to_file::Job;
 use crate::resources::Needs;
 use crate::words::{PAIRS, bytes, counted, duration};
 use radiosity_form_factors::{Estimation, Estimator};

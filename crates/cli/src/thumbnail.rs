@@ -6,7 +6,7 @@ use radiosity::image::Rgb8Image;
 use std::fmt::Write;
 
 /// Shows pictures where the terminal has colours, and nothing elsewhere.
-pub(super) struct Live {
+pub(super) struct Thumbnail {
     terminal: Option<Term>,
     /// What the last picture took, which the next one replaces.
     lines: usize,
@@ -15,12 +15,12 @@ pub(super) struct Live {
 /// The widest picture, in characters.
 const WIDEST: u16 = 72;
 
-impl Live {
+impl Thumbnail {
     /// On standard error, as progress is.
-    pub(super) fn new(is_wanted: bool) -> Live {
+    pub(super) fn new(is_wanted: bool) -> Thumbnail {
         let terminal = Term::stderr();
         let is_fit = is_wanted && terminal.is_term() && console::colors_enabled_stderr();
-        Live {
+        Thumbnail {
             terminal: is_fit.then_some(terminal),
             lines: 0,
         }
@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn nothing_is_shown_where_nobody_looks() {
-        let mut live = Live::new(false);
+        let mut live = Thumbnail::new(false);
         assert_eq!(live.size((640, 480)), None);
         live.show(&Rgb8Image::plain(2, 2, [0; 3]));
     }
