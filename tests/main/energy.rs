@@ -4,6 +4,7 @@ use radiosity::form_factors::Mode;
 use radiosity::geometry::{DVec3, Divisions, Mesh, Occluders, Patch, Polygon, Ray};
 use radiosity::stages::PatchLight;
 use radiosity::{Energy, Project};
+use radiosity_test_kit::cuboid;
 use radiosity_tests::{Chain, shipped};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -165,19 +166,11 @@ fn hidden_parts_of_lamps_emit_onto_backs() {
     let quad = |name: &str, material: &str, corners: [[f64; 3]; 4]| {
         format!("[[surfaces]]\nname = \"{name}\"\nmaterial = \"{material}\"\nquad = {corners:?}\n")
     };
-    let (low, high) = ([-0.5, -0.1, -0.1], [0.5, 1.1, 1.0]);
-    let corner = |k: usize| [0, 1, 2].map(|axis| if k >> axis & 1 == 0 { low } else { high }[axis]);
-    // Counter-clockwise from outside.
-    let sides = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
-    let sides = sides.iter().enumerate();
-    let sides = sides.map(|(k, side)| quad(&format!("side-{k}"), "white", side.map(corner)));
+    let sides = cuboid([-0.5, -0.1, -0.1], [0.5, 1.1, 1.0]).into_iter();
+    let sides = sides.enumerate().map(|(k, side)| {
+        let corners = side.map(|corner| corner.to_array());
+        quad(&format!("side-{k}"), "white", corners)
+    });
     let lamp = [
         [0.0, 0.0, 0.0],
         [0.0, 1.0, 0.0],

@@ -36,7 +36,8 @@ fn large_patch(scene: &Scene, mesh: &Mesh) -> Option<String> {
     (share > LARGE).then(|| {
         format!(
             "note: a patch of `{}` is {:.0} % of all area, and each patch has one mean of what \
-             it reflects: cut surfaces into smaller ones, as --max-patch-edge {} does",
+             it reflects: cut surfaces into smaller ones, as `max_patch_edge = {}` in \
+             [discretization] does",
             scene.surfaces[largest.surface.index()].name,
             100.0 * share,
             one_digit((total / ENOUGH).sqrt())
@@ -90,7 +91,10 @@ mod tests {
         assert_eq!(told.len(), 1);
         assert!(told[0].contains("is 50 % of all area"), "{told:?}");
         // The square root of 8 / 2000 is 0.063.
-        assert!(told[0].contains("--max-patch-edge 0.06"), "{told:?}");
+        assert!(
+            told[0].contains("`max_patch_edge = 0.06` in [discretization]"),
+            "{told:?}"
+        );
         assert!(cube(2.0, 4).is_empty());
     }
 

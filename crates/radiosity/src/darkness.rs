@@ -151,7 +151,7 @@ pub fn of_picture(patches: &Patches<'_>, camera: &Camera, params: &ImageParams) 
     } else {
         format!(
             "the camera sees only backs, of {}: move the camera to the other side, flip these \
-             faces (reverse the order of their corners), or let backs be transparent (--backs)",
+             faces (reverse the order of their corners), or let backs be transparent",
             named(backs)
         )
     }
